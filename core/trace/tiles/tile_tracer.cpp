@@ -128,7 +128,7 @@ void TileTracer::fetch_ids() {
   const auto scale = as_size(plan_->out.scale), width = as_size(tile_.size().x);
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
     const std::uint32_t* const from = &seen.at(tile_.lo.x * plan_->out.scale, y * plan_->out.scale);
-    std::uint32_t* const to = &ids_[as_size(y - tile_.lo.y) << kTileBits];
+    std::uint32_t* const to = &ids_[row_of(y)];
     if (scale == 1)
       std::memcpy(to, from, width * sizeof(*to));
     else
@@ -154,7 +154,7 @@ void TileTracer::find_visible() {
     if (known_.sees_nothing) ids_.fill(kNoTriangle);
     for (std::size_t i = 0; i < seen_.size; ++i) ids_[seen_.pixel[i]] = seen_.triangle[i];
     for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
-      std::memcpy(&out.ids->at(tile_.lo.x, y), &ids_[as_size(y - tile_.lo.y) << kTileBits],
+      std::memcpy(&out.ids->at(tile_.lo.x, y), &ids_[row_of(y)],
                   as_size(tile_.size().x) * sizeof(std::uint32_t));
   }
   plan_->job.tracer.steps().keep_hits(seen_);
@@ -296,7 +296,7 @@ void TileTracer::write_reflection() {
   const auto width = as_size(tile_.size().x);
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
     glm::vec3* const pixels = &to.at(tile_.lo.x, y);
-    const glm::vec4* const reflected = &reflected_[as_size(y - tile_.lo.y) << kTileBits];
+    const glm::vec4* const reflected = &reflected_[row_of(y)];
     if (reflects_)
       for (std::size_t i = 0; i < width; ++i) pixels[i] = glm::vec3(reflected[i]);
     else
@@ -307,7 +307,7 @@ void TileTracer::write_reflection() {
 void TileTracer::write_sampled(Image<SampledPoint>& to, std::size_t first) const {
   const auto width = as_size(tile_.size().x);
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
-    const std::size_t row = first + (as_size(y - tile_.lo.y) << kTileBits);
+    const std::size_t row = first + row_of(y);
     for (std::size_t i = row; i < row + width; ++i) {
       SampledPoint& point = (&to.at(tile_.lo.x, y))[i - row] = points_[i];
       point.light = glm::vec3(reflected_[kSampledPixels + i]);
@@ -319,10 +319,8 @@ void TileTracer::write_sampled(Image<SampledPoint>& to, std::size_t first) const
 void TileTracer::write_mask(MaskImage& to) const {
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
     for (std::size_t i = 0; i < mask_.size(); i += kPixels)
-      to.set_row(
-          tile_.lo.x, y,
-          std::span(mask_).subspan(i + (as_size(y - tile_.lo.y) << kTileBits), as_size(tile_.size().x)),
-          as_int(i / kPixels));
+      to.set_row(tile_.lo.x, y, std::span(mask_).subspan(i + row_of(y), as_size(tile_.size().x)),
+                 as_int(i / kPixels));
 }
 
 // Puts the light of all pixels together, in direct_.
@@ -339,7 +337,7 @@ void TileTracer::write_color(Image<glm::vec4>& to) const {
   const bool large = to.pixels().size_bytes() >= kStreamedBytes;
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
     glm::vec4* const pixels = &to.at(tile_.lo.x, y);
-    const glm::vec4* const light = &direct_[as_size(y - tile_.lo.y) << kTileBits];
+    const glm::vec4* const light = &direct_[row_of(y)];
     const auto width = as_size(tile_.size().x);
     if (large)
       for (std::size_t i = 0; i < width; ++i) stream_four(&pixels[i].x, load_four(&light[i].x));
@@ -361,8 +359,7 @@ void TileTracer::write() {
   if (out.added && seen_.size > 0)
     for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
       for (int x = tile_.lo.x; x < tile_.hi.x; ++x)
-        out.added->at(x, y) +=
-            glm::vec3(direct_[as_size(y - tile_.lo.y) << kTileBits | as_size(x - tile_.lo.x)]);
+        out.added->at(x, y) += glm::vec3(direct_[row_of(y) + as_size(x - tile_.lo.x)]);
   if (!out.color) return;
   if (plan_->backdrop || plan_->job.options.background.kind == Background::Kind::color) paint_background();
   if (plan_->catcher) darken_by_lost();

@@ -11,6 +11,7 @@
 #include "core/trace/tiles/holes.h"
 #include "core/trace/tiles/tile_plan.h"
 #include "core/trace/tiles/tinted_shadows.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
@@ -36,6 +37,8 @@ class TileTracer {
   using Radiance = std::array<glm::vec4, kCount>;
   static_assert(kSampledPixels == kPixels);
 
+  // The place of a row of the picture in arrays of the tile's pixels.
+  [[nodiscard]] std::size_t row_of(int y) const { return as_size(y - tile_.lo.y) << kTileBits; }
   [[nodiscard]] bool rays_miss_scene() const;
   void start();
   void begin_light();
