@@ -103,7 +103,7 @@ struct Bounce {
   SampledPoint* points = nullptr;  // a tile's pixels: the surfaces, for the filter; null: not wanted
   bool lights_alone = false;       // other steps have the same rays' surfaces, and light of other lights
 
-  // Whether light that is too faint gets no shadow ray.
+  // Whether shadow rays are left out where the light is too faint.
   [[nodiscard]] bool cuts_light() const { return visible && options->light_cutoff > 0.0f; }
 };
 

@@ -31,8 +31,8 @@ struct TraceOptions {
   // Mirrored and refracted rays, and the shadow rays of what they hit, are not fired where they would bring
   // their pixel less light than this, linear.
   float throughput_cutoff = kThroughputCutoff;
-  // The same for shadow rays of visible points without textures. Points with textures have a ray to each
-  // light that their triangle faces. 0: every bit of the mask is exact.
+  // Visible points without textures fire no shadow ray that would bring less light than this, linear. Points
+  // with textures fire one at each light that their triangle faces. 0: every bit of the mask is exact.
   float light_cutoff = 0.0f;
   float texture_footprint = 1.0f;  // side of the square that textures are averaged over, pixels; 0: a point
   Terminator terminator = kUsualTerminator;

@@ -85,7 +85,6 @@ void TileTracer::uncover(std::uint32_t pixel, float by) {
 // Adds the background where nothing is hit; alpha stays 0.
 void TileTracer::paint_background() {
   const Background& background = plan_->job.options.background;
-  is_black_ = false;
   if (plan_->backdrop) paint_backdrop();
   if (background.kind != Background::Kind::color) return;
   for (glm::vec4& pixel : direct_)
@@ -201,7 +200,6 @@ void TileTracer::count_lost(const RayQueue& queue, float reach) {
 
 // Darkens the background where the plane lost light.
 void TileTracer::darken_by_lost() {
-  is_black_ = false;
   for (std::size_t i = 0; i < ground_.size; ++i) {
     const std::uint32_t pixel = ground_.pixel[i];
     const float lost = ground_light_[pixel].a;

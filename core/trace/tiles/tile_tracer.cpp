@@ -75,7 +75,7 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile, const K
   return {counts_, times};
 }
 
-// Whether all camera rays of the tile pass the scene by. Not looked for if on_rays wants all rays.
+// True if no camera ray of the tile can meet the scene. False where on_rays wants all rays.
 bool TileTracer::rays_miss_scene() const {
   return !plan_->out.seen && !plan_->out.on_rays && !plan_->model &&
          misses(TileFrustum(plan_->view, tile_), plan_->job.tracer.trees());
@@ -221,7 +221,6 @@ void TileTracer::light_visible() {
   mask_.assign(as_size(plan_->visible_lights.back().byte + 1) * kPixels, 0);
   if (plan_->visible.adds_light) {
     direct_.fill(glm::vec4(0.0f));
-    is_black_ = false;
     for (std::size_t i = 0; i < seen_.size; ++i) direct_[seen_.pixel[i]].a = 1.0f;
   }
   next_diffuse_.make_room(0, extra_columns());
@@ -325,19 +324,18 @@ void TileTracer::write_mask(MaskImage& to) const {
 
 // Puts the light of all pixels together, in direct_.
 void TileTracer::composite() {
-  if (seen_.size == 0) {
-    if (!is_black_) direct_.fill(glm::vec4(0.0f));
-    is_black_ = true;
-  } else if (reflects_) {
-    for (std::size_t i = 0; i < kPixels; ++i) direct_[i] += reflected_[i];
-  }
+  if (seen_.size == 0) return direct_.fill(glm::vec4(0.0f));
+  if (!reflects_) return;
+  for (std::size_t i = 0; i < kPixels; ++i) direct_[i] += reflected_[i];
 }
 
-void TileTracer::write_color(Image<glm::vec4>& to) const {
+// The light in direct_, or black.
+void TileTracer::write_color(Image<glm::vec4>& to, bool black) const {
+  alignas(16) static const std::array<glm::vec4, TileGrid::kTileSize> kBlack{};
   const bool large = to.pixels().size_bytes() >= kStreamedBytes;
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
     glm::vec4* const pixels = &to.at(tile_.lo.x, y);
-    const glm::vec4* const light = &direct_[row_of(y)];
+    const glm::vec4* const light = black ? kBlack.data() : &direct_[row_of(y)];
     const auto width = as_size(tile_.size().x);
     if (large)
       for (std::size_t i = 0; i < width; ++i) stream_four(&pixels[i].x, load_four(&light[i].x));
@@ -355,15 +353,18 @@ void TileTracer::write() {
   if (plan_->beyond) write_sampled(*plan_->beyond, kPixels);
   if (out.mask && seen_.size > 0) write_mask(*out.mask);
   if (!out.color && !out.added) return;
-  composite();
+  const bool has_background =
+      plan_->backdrop || plan_->job.options.background.kind == Background::Kind::color;
+  const bool black = seen_.size == 0 && !has_background && !plan_->catcher;
+  if (!black) composite();
   if (out.added && seen_.size > 0)
     for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
       for (int x = tile_.lo.x; x < tile_.hi.x; ++x)
         out.added->at(x, y) += glm::vec3(direct_[row_of(y) + as_size(x - tile_.lo.x)]);
   if (!out.color) return;
-  if (plan_->backdrop || plan_->job.options.background.kind == Background::Kind::color) paint_background();
+  if (has_background) paint_background();
   if (plan_->catcher) darken_by_lost();
-  write_color(*out.color);
+  write_color(*out.color, black);
 }
 
 }  // namespace pinocchio

@@ -78,7 +78,7 @@ class TileTracer {
   void write_sampled(Image<SampledPoint>& to, std::size_t first) const;
   void write_mask(MaskImage& to) const;
   void composite();
-  void write_color(Image<glm::vec4>& to) const;
+  void write_color(Image<glm::vec4>& to, bool black) const;
   void write();
 
   const TilePlan* plan_ = nullptr;
@@ -96,7 +96,6 @@ class TileTracer {
   Holes holes_;
   TintedShadows tinted_;
   alignas(16) Radiance<kPixels> direct_;         // at last all light
-  bool is_black_ = false;                        // direct_ is all 0
   alignas(16) Radiance<5 * kPixels> reflected_;  // from kSampledPixels on: what is kept apart
   std::vector<SampledPoint> points_;             // kPixels that the camera sees, then those beyond
   // With a shadow catcher: rays at its plane, of pixels that see nothing, and behind surfaces that blend. By

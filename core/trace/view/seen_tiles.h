@@ -17,7 +17,7 @@ class SeenTiles {
   // The grid's pixels are every scale-th of `ids`, across and down. Both outlive this.
   SeenTiles(const Image<std::uint32_t>& ids, int scale, const TileGrid& grid);
 
-  // Whether any pixel of the tile sees a triangle. Any thread may call it.
+  // True if some pixel of the tile sees a triangle. Thread-safe.
   [[nodiscard]] bool any(std::size_t tile);
 
  private:
