@@ -291,9 +291,9 @@ void add_studio_option(CLI::App& verb, DrawOptions& o, bool usual) {
   begin_group(verb, kLightGroup);
   verb.add_option_function<std::string>(
           "--studio", [&o](const std::string& text) { o.studio = text == "on"; },
-          std::string("a soft sky and a directional light for scenes without light, a camera whose picture "
-                      "the object "
-                      "fills for scenes without camera; off: a point light and a view of the whole scene (") +
+          std::string("on: scenes without light get a soft sky and a directional light, and scenes without "
+                      "camera one whose picture the object fills; off: a point light and a view of the whole "
+                      "scene (") +
               (usual ? "on)" : "off)"))
       ->type_name("on|off")
       ->check(CLI::IsMember({"on", "off"}));

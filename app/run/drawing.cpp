@@ -57,9 +57,10 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
         "the CPU drawing alone counts what they let through (--mode raytrace)\n");
   if (!options.quiet && settings_.background_blur > 0.0f &&
       !backdrop_of(scene_, settings_.background).picture)
-    std::fprintf(stderr,
-                 "pinocchio: warning: --background-blur changes nothing: no environment is behind the scene "
-                 "(--environment FILE; --background environment)\n");
+    std::fprintf(
+        stderr,
+        "pinocchio: warning: --background-blur changes nothing: neither an environment nor the studio is "
+        "behind the scene (--environment FILE or --background studio)\n");
   if (!options.quiet && !any_settings) advise(with_usual(options.settings, usual));
   if (scene_.animation)
     poses_.emplace(scene_, &run_progress());

@@ -44,7 +44,7 @@ std::vector<std::string> isa_choices() {
 }
 
 void add_options(CLI::App& program, Options& o) {
-  const auto scene = program.add_option("SCENE", o.scene, "glTF (.gltf, .glb) or OBJ file");
+  const auto scene = program.add_option("SCENE", o.scene, "glTF, OBJ, PLY or STL file");
   program.add_option("--generate", o.generate, "a scene made by our own code instead")
       ->check(CLI::IsMember(procedural_names()))
       ->excludes(scene);
@@ -73,9 +73,10 @@ void add_options(CLI::App& program, Options& o) {
   program.add_flag("--frame", o.frame, "add whole frames, with the materials as they are (or --mirror-all)");
   program.add_flag("--processor-time", o.processor_time,
                    "times of the process's processors, not of the clock (a busy machine, --threads 1)");
-  program.add_flag("--animation", o.animation,
-                   "instead: frames of an animated scene, their trees built anew, with each rule (a still "
-                   "scene is turned)");
+  program.add_flag(
+      "--animation", o.animation,
+      "instead: frames of an animated scene, rebuilding their trees with each split rule (a still "
+      "scene is turned)");
   const auto motion =
       program.add_option("--motion", o.motion.moving,
                          "instead: frames of a scene of balls, so many of which move each frame, "

@@ -29,7 +29,7 @@ class MemoryLimit {
       error_ = InputError{file, 0,
                           what + " needs " + mib(wanted) + " MiB of memory, " + mib(bytes_ - taken_) +
                               " of " + mib(bytes_) + " are left",
-                          "raise it with --load-limit MIB if the file is to be trusted"};
+                          "raise it with --load-limit MIB (Python: load_limit) if the file is to be trusted"};
     return false;
   }
 

@@ -16,8 +16,8 @@ struct Source {
   int square, from;
 };
 
-// For the squares of a side of `texels`: those that their own texels and the ones `way` texels before and
-// behind are in. Beyond the side's ends it begins anew.
+// For each square along a side of `texels`: the squares that hold its own texels, and the texels `way` before
+// and behind them. Beyond an end the side repeats.
 std::vector<Source> sources_of(int texels, int way) {
   std::vector<Source> sources;
   for (int square = 0; square * kSide < texels; ++square)

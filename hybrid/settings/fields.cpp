@@ -202,17 +202,17 @@ constexpr std::array kTable{
                     "send the 128 bits a pixel of 2005 to the CPU instead of ids alone"),
     field<&S::throughput_cutoff>(
         G::rays, "throughput_cutoff", from_to(0, 1), "0.00012207031",
-        "a mirrored ray is not fired where it would bring its pixel less light than this, "
-        "linear; 0: all are fired",
+        "mirrored rays that would add less linear light than this to their pixel are not traced; 0: all "
+        "are",
         false, "least_contribution"),
     field<&S::light_cutoff>(
         G::rays, "light_cutoff", from_to(0, 1),
         "0 where the mask itself is kept, else half a step of an 8-bit picture",
-        "a shadow ray is not fired where it would bring its visible point, if that has no textures, "
-        "less light than this, linear; 0: all are fired",
+        "shadow rays that would add less linear light than this to a visible point without textures are "
+        "not traced; 0: all are",
         false, "least_light"),
     field<&S::coverage>(G::rays, "coverage", yes_or_no(), "false",
-                        "alpha counts what surfaces that blend let through; the CPU draws alone"),
+                        "surfaces that blend have their own alpha, not 1; the CPU draws alone"),
     field<&S::filter_textures>(G::rays, "filter_textures", yes_or_no(), "true",
                                "average textures over the area that a pixel or its mirror image covers"),
     field<&S::indirect>(G::light, "indirect", from_to(0, kMostBounces), "0",
@@ -237,9 +237,9 @@ constexpr std::array kTable{
         "normal; 0: it casts no shadows"),
     field<&S::glass_shadows>(
         G::light, "glass_shadows", one_of(kGlassShadowsNames), glass_shadows_name(kUsualGlassShadows),
-        "shadow rays that meet glass: opaque: they end, it casts a full shadow; tinted: they "
-        "go straight on, with what Fresnel's equations, the glass's colour and the way "
-        "through it leave of the light (docs/glass.md)"),
+        "shadow rays at glass: opaque: they end, and glass casts a full shadow; tinted: they continue "
+        "straight, dimmed by Fresnel's reflection, the glass's colour and its absorption "
+        "(docs/glass.md)"),
     field<&S::denoise>(
         G::samples, "denoise", yes_or_no(), "false; true in the window",
         "filter the light that samples find (environment, lights with a size, rough mirrors, "
@@ -255,7 +255,7 @@ constexpr std::array kTable{
         "also in PNG files"),
     field<&S::background_blur>(
         G::light, "background_blur", from_to(0, 1), "0",
-        "how far the environment is blurred where it is the background; 1: by 30 degrees (standard "
+        "how far the environment or studio behind the scene is blurred; 1: by 30 degrees (standard "
         "deviation). Light, mirrors and glass keep it sharp"),
     field<&S::shadow_catcher>(
         G::light, "shadow_catcher", text(kShadowCatcherTexts, kCatchers, "lowest"),
@@ -269,9 +269,9 @@ constexpr std::array kTable{
         "surface; turned-away: the same, on facets that turn away only (docs/terminator.md)"),
     field<&S::backfaces>(
         G::rays, "backfaces", one_of(kBackfacesNames), "auto",
-        "surfaces that the camera sees through from behind: auto: those whose file says that they are "
-        "single-sided, as glTF does; draw: none; cull: all whose file does not say that they are "
-        "double-sided. Shadows, mirrors and glass keep both sides"),
+        "which backs the camera does not see: auto: those that their file marks as single-sided, as glTF "
+        "does; draw: none; cull: all that their file does not mark as double-sided. Shadows, mirrors and "
+        "glass see both sides"),
     field<&S::reuse>(G::exchange, "reuse", yes_or_no(), "true",
                      "do not draw a frame again whose request equals the last one's"),
     field<&S::persistent>(G::exchange, "persistent", yes_or_no(), "false", "keep transfer buffers mapped",

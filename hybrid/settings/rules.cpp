@@ -82,7 +82,7 @@ constexpr std::array kRules{
          [](const Settings& s) {
            return s.wide && (s.visibility == Processor::cpu || s.composite == Processor::gpu);
          }},
-    Rule{"coverage is counted by the CPU's rays", "leave it out, or let the CPU draw alone (--mode raytrace)",
+    Rule{"coverage needs the CPU to draw alone", "leave it out, or use --mode raytrace",
          [](const Settings& s) { return s.coverage && s.uses_gpu(); }},
     Rule{"denoise filters pixels that have as many samples as each other",
          "leave out max_noise, mask_scale and reflection_scale, or use --no-denoise",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Optional, Sequence, Set, Tuple, Union
 
-from ._core import Camera, Engine, Scene
+from ._core import Camera, Engine, Error, Scene
 
 if TYPE_CHECKING:
     import numpy
@@ -18,13 +18,13 @@ def boxes(ids: ArrayLike) -> Dict[int, Tuple[int, int, int, int]]:
     """The tight box of each number in a picture of ids: {number: (x0, y0, x1, y1)}, in pixels, x1 and y1 excluded.
 
     ids: (h, w) of whole numbers, as Result.objects, Result.materials and Result.ids are. 0xffffffff, where nothing is
-    hit, has no box.
+    hit, has no box. Raises Error if ids has another shape.
     """
     import numpy
 
     picture = numpy.asarray(ids)
     if picture.ndim != 2:
-        raise ValueError(f"ids has the shape {picture.shape}; give the ids of one picture, (height, width)")
+        raise Error(f"ids has the shape {picture.shape}; give the ids of one picture, (height, width)")
     numbers, places = numpy.unique(picture, return_inverse=True)
     places = places.reshape(picture.shape)
     found = {}
@@ -44,7 +44,7 @@ def _number(scene: Scene, node: Node) -> int:
     if isinstance(node, str):
         names = list(scene.nodes)
         if node not in names:
-            raise ValueError(f"there is no node '{node}'; Scene.nodes lists them")
+            raise Error(f"there is no node '{node}'; Scene.nodes lists them")
         return names.index(node)
     return int(node)
 
@@ -69,7 +69,7 @@ def amodal_masks(
 
     nodes: names or indices of Scene.nodes, each with all nodes below it. None: every node with triangles of its own.
     camera, size, settings: as for Engine.render. Each node takes a picture, which traces the camera's rays alone.
-    Raises ValueError if there is no such node.
+    Raises Error if there is no such node or camera.
     """
     chosen = list(nodes) if nodes is not None else _drawn_nodes(scene)
     if camera is None or not isinstance(camera, Camera):
@@ -103,7 +103,7 @@ def _camera(scene: Scene, camera: Optional[Union[int, str]]) -> Camera:
             return one
     if isinstance(camera, int) and 0 <= camera < len(cameras):
         return cameras[camera]
-    raise ValueError(f"the scene has no camera {camera!r}; Scene.cameras lists them")
+    raise Error(f"the scene has no camera {camera!r}; Scene.cameras lists them")
 
 
 def visible_share(

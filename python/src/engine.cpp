@@ -224,7 +224,9 @@ void bind_engine(nb::module_& module) {
            "threads: the number of worker threads. 0: the environment variable PINOCCHIO_THREADS, else one "
            "for each core of the\n"
            "process. If several processes share a machine, give each its share.\n"
-           "backend, device: of OpenGL, as the program's options.")
+           "backend: of OpenGL: 'auto', 'egl', 'osmesa' or 'glfw'. device: an EGL device's number or "
+           "'software'.\n"
+           "Raises Error if threads is not 0 to 1024, or if there is no such backend.")
       .def_prop_ro("threads", &PyEngine::threads, "The number of worker threads.")
       .def("close", &PyEngine::close,
            "Ends the threads and frees the tree and the OpenGL context. Later pictures raise Error. `with "

@@ -141,7 +141,7 @@ def test_boxes_are_tight():
     ids[4, 7] = 0
     assert pn.boxes(ids) == {7: (2, 1, 5, 3), 0: (7, 4, 8, 5)}
     assert pn.boxes(numpy.full((2, 2), NOTHING, numpy.uint32)) == {}
-    with pytest.raises(ValueError, match="of one picture"):
+    with pytest.raises(pn.Error, match="of one picture"):
         pn.boxes(numpy.zeros((2, 3, 4), numpy.uint32))
 
 
@@ -163,7 +163,7 @@ def test_masks_see_through_what_is_before(squares):
 def test_masks_of_what_is_not_there(squares):
     away = pn.Camera(eye=(0, 0, 5), target=(0, 0, 9))
     assert pn.visible_share(pn.Engine(), squares, ["before"], away, (20, 20)) == {"before": 0.0}
-    with pytest.raises(ValueError, match="no node 'nowhere'"):
+    with pytest.raises(pn.Error, match="no node 'nowhere'"):
         pn.amodal_masks(pn.Engine(), squares, ["nowhere"], size=(20, 20))
 
 

@@ -32,10 +32,10 @@ class Environment {
   [[nodiscard]] const std::string& source() const { return source_; }  // the file's path
   [[nodiscard]] bool is_black() const { return rows_.back() <= 0.0f; }
 
-  // What places are chosen by, so that bright ones are likelier. Cumulative light, from 0 to 1: up to the end
+  // Tables for choosing directions in proportion to their light. Cumulative light, from 0 to 1: up to the end
   // of each row, and within each row up to the end of each texel. A texel has the interpolated light of its
-  // area, weighted by its row's share of the sphere. Guides: where the search for a number k / n among n ends
-  // begins, likewise.
+  // area, weighted by its row's share of the sphere. Guides, for rows and for columns: of n ends, entry k is
+  // the index where the search for k / n begins.
   struct Shares {
     const float *rows, *columns;
     const std::uint32_t *row_guides, *column_guides;

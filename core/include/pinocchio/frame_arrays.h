@@ -120,9 +120,12 @@ inline constexpr std::array kLayers{
              {"P", {"P.X", "P.Y", "P.Z"}, kReal},
              {"position", "world position, scene units", 3, false}},
     LayerRow{Layer::albedo,
-             {"albedo", &FrameArrays::albedo, "diffuse colour, linear; 0 where nothing is hit"},
+             {"albedo", &FrameArrays::albedo,
+              "share of light that the surface returns: the base colour, of metals too; linear; 0 where "
+              "nothing is "
+              "hit"},
              {"Albedo", {"Albedo.R", "Albedo.G", "Albedo.B"}, kHalf},
-             {"albedo", "diffuse colour, as textures and materials have it", 0, false}},
+             {"albedo", "base colour, as textures and materials have it", 0, false}},
     LayerRow{
         Layer::objects,
         {"objects", &FrameArrays::objects,

@@ -98,7 +98,8 @@ struct NodeWeights {
                                     std::span<const NodeWeights> weights = {});
 
 // Several scenes as one: each is a node of that name with its own nodes below it. The result has all lights
-// and cameras, and the first scene's ambient light.
+// and cameras, and the first scene's ambient light. Errors: no part has a triangle, or a matrix makes numbers
+// that are not finite.
 struct Part {
   std::string name;
   std::reference_wrapper<const Scene> scene;  // it must outlive the part: a temporary one does not compile

@@ -1,4 +1,5 @@
-// The light that has samples, and what stands for it without: both are chosen in Settings.
+// How environments and rough surfaces are lit: by samples, or by approximations without noise. Settings
+// choose.
 #pragma once
 
 #include <array>

@@ -28,7 +28,7 @@ struct Scene {
   std::shared_ptr<const Mesh> mesh = std::make_shared<const Mesh>();  // never null
   std::vector<Light> lights;
   std::vector<Camera> cameras;
-  glm::vec3 ambient_light{0.1f};                   // Ia; no file format that we read has it
+  glm::vec3 ambient_light{0.1f};                   // Ia; glTF: the scene's extras.pinocchio.ambient
   std::shared_ptr<const Environment> environment;  // light where no triangle is; null: black
   float environment_rotation_deg = 0.0f;           // about +Y
   float environment_strength = 1.0f;               // multiplies the environment's light

@@ -6,7 +6,7 @@
 
 namespace pinocchio {
 
-// A ground that shows nothing but the light that the scene takes from it: an endless horizontal plane, seen
+// A ground that shows nothing but the light that the scene takes from it: a horizontal plane, seen
 // from above where rays straight from the camera meet nothing else. A pixel's alpha there is the share of
 // light, in luminance, that a white matt plane would lose to shadows. Light, mirrors and glass do not see it.
 struct ShadowCatcher {

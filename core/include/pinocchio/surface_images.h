@@ -12,7 +12,7 @@ struct SurfaceImages {
   Image<float> z_eye;          // along the view axis; +inf where nothing is hit
   Image<glm::vec3> p_world;    // this and the next two are 0 where nothing is hit
   Image<glm::vec3> n_shading;  // unit
-  Image<glm::vec3> albedo;     // diffuse colour, linear
+  Image<glm::vec3> albedo;     // share of light that is returned, linear
 };
 
 }  // namespace pinocchio

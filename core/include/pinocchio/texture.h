@@ -61,9 +61,9 @@ struct Texture {
   std::string name;
   Image<glm::u8vec4> texels;  // for a new mesh, which moves them to `blocks`; none in a finished one
   TexelBlocks blocks{};       // with levels down to one texel where the texture is interpolated
-  // A finished mesh's textures of roughness have this of each square of kGreenSide texels a side, row by row:
-  // byte k is the least green of the square and of the texels up to kGreenSide << k around it, beyond edges
-  // those of the other side.
+  // A finished mesh's textures of roughness have a word for each square of kGreenSide texels a side, row by
+  // row. Its byte k is the least green of the square and of the texels up to kGreenSide << k around it;
+  // beyond an edge the texture repeats.
   std::vector<std::uint32_t> least_green{};
   static constexpr int kGreenSide = 4, kGreenReaches = 4;
 

@@ -4,7 +4,7 @@
 
 namespace pinocchio {
 
-// The method that tests whether a ray meets a triangle (core/trace/triangle_tests/).
+// The method that tests whether a ray meets a triangle (core/trace/walk/).
 enum class TriangleTest {
   projected,         // Wald 2004, revised 2005: projected along an axis, weights computed in the plane
   moeller_trumbore,  // Möller and Trumbore 1997: weights by cross products of the corners

@@ -13,8 +13,8 @@ inline EnvironmentParams params_of(const EnvironmentLight& e, Mask lanes) {
   return {{e.pixels, as_uint32(e.size.x), lanes}, e.size, e.turn, e.strength};
 }
 
-// Where numbers fall among ends that grow to 1: index, place within, 0 to 1, and what this index has of the
-// 1. Each lane's ends begin at `first`.
+// Inverts a cumulative distribution: the entry that a number falls into, the place within it, 0 to 1, and its
+// probability. Each lane's entries begin at `first`.
 struct Found {
   Int index;
   Float within, share;

@@ -88,15 +88,15 @@ struct Bounce {
 
   // Outputs. Queues have room for all rays of the step; null: not wanted.
   RayQueue* shadow = nullptr;  // one for each of the step's casting lights
-  // Likewise: rays to the origins of lifted shadow rays; their `pixel` is the shadow ray's place in its
-  // queue.
+  // One for each of them: rays to the origins of lifted shadow rays; their `pixel` is the shadow ray's place
+  // in its queue.
   RayQueue* ways_up = nullptr;
-  RayQueue *sky = nullptr, *sky_ways_up = nullptr;  // the environment's and distant lights', likewise
+  RayQueue *sky = nullptr, *sky_ways_up = nullptr;  // to the environment and distant lights
   RayQueue* lobe_lights = nullptr;                  // from glossy lobes to lights with a size
   RayQueue *mirrored = nullptr, *refracted = nullptr, *straight = nullptr;
   RayQueue* diffuse = nullptr;  // towards light from other surfaces
   float* radiance = nullptr;    // a tile's pixels, RGBA
-  float* traced = nullptr;      // likewise, for `prefiltered`; from kSampledPixels on for `sampled`
+  float* traced = nullptr;      // RGBA: light of `prefiltered`; from kSampledPixels on, of `sampled`
   // What is added to the pixels of rays that find light at random from here on: kSampledPixels, or twice
   // that; 0: it is not kept apart.
   std::uint32_t sampled = 0;

@@ -235,8 +235,8 @@ inline void set_material(const MaterialMaps& maps, const Material& plain, const 
   m.transmits = (m.transmits & ~bits) | any_component(point.transmittance);
 }
 
-// The maps that a step reads (bit i: row i of kMapUses), and where: others decide whether a point mirrors or
-// transmits, and whether colours change what.
+// The maps that a step reads (bit i: row i of kMapUses): at all points, at those that mirror or transmit, and
+// at those where colours change what is mirrored or transmitted.
 struct MapsWanted {
   unsigned everywhere = 0, where_mirrored = 0, where_colored = 0;
 

@@ -23,7 +23,7 @@ class Search {
  public:
   explicit Search(const TileFrustum& frustum) : frustum_(frustum) {}
 
-  // False only if all rays pass all triangles of the tree, or trees, by.
+  // False only if no ray can hit a triangle of the tree, or trees.
   [[nodiscard]] bool reaches(const BspTree& tree) {
     left_ = kMostBoxes;
     return reaches(tree, 0, tree.bounds);

@@ -21,13 +21,13 @@ struct Kernel {
   // none).
   void (*closest_hits)(const SceneTrees& scene, const RayColumns& rays, std::size_t n,
                        std::uint32_t* triangle, float* t);
-  // Likewise, for rays that pass those backs.
+  // As closest_hits, but rays pass through the backs of the materials in `backs`.
   void (*closest_fronts)(const SceneTrees& scene, const RayColumns& rays, std::size_t n,
                          const MaterialMarks& backs, std::uint32_t* triangle, float* t);
   // Writes 1 for a ray that meets any triangle, else 0.
   void (*occluded)(const SceneTrees& scene, const RayColumns& rays, std::size_t n, std::uint8_t* blocked);
-  // Writes 1 for a ray that meets a triangle that stops it, else kMayPass for one that meets any that a share
-  // of light passes, else 0.
+  // Writes 1 if a triangle stops the ray, else kMayPass if it meets one that lets a share of light through,
+  // else 0.
   void (*occluded_unless_passed)(const SceneTrees& scene, const RayColumns& rays, std::size_t n,
                                  const PassedSurfaces& passed, std::uint8_t* blocked);
 };

@@ -120,7 +120,7 @@ class LeafLanes {
   }
 
  private:
-  // In units of each other; measured (docs/measurements.md, "What was tried").
+  // In units of each other; measured (docs/decisions.md, "What was tried in the kernel").
   static constexpr unsigned kLoadCost = 3, kRayCost = 3, kPacketCost = 2;
 
   // Values by axis, reordered to each triangle's dropped axis and the other two.

@@ -124,7 +124,7 @@ class WideWalk {
   static constexpr int kInterleaved = 8;
   static constexpr int kStack = (WideNode::kChildren - 1) * WideTree::kMostDepth + 1;
 
-  // An interval's end is widened for its begin, too: more than kLate / kEarly.
+  // Widens an interval's end for the rounding of its begin, too: more than kLate / kEarly.
   static constexpr float kLatest = 1.0f + 3.0f * 0x1p-21f;
 
   struct Waiting {

@@ -21,10 +21,11 @@
 namespace pinocchio {
 
 // Writes a picture of `size` pixels from each camera to the arrays: the same values, to the last bit, as
-// those of Engine::render. Nothing is computed for null arrays. If the CPU draws alone, the tiles of all
+// those of Engine::render. Arrays have cameras.size() * size.x * size.y pixels; nothing is computed for null
+// ones. Returns the rays of all pictures. If the CPU draws alone, the tiles of all
 // pictures are one queue for all worker threads, and after the first call no picture allocates memory. Phases
-// "build" and "render". Call it on the Engine's thread. Throws NoOpenGlError. `motion`: for to.motion, one
-// for each camera; empty: motion is 0.
+// "build" and "render". Call it on the Engine's thread. Errors: those of Engine::resolve. Throws
+// OpenGlError and Cancelled. `motion`: for to.motion, one for each camera; empty: motion is 0.
 [[nodiscard]] Expected<RayCounts> render_many(Engine& engine, const Scene& scene,
                                               std::span<const Camera> cameras, glm::ivec2 size,
                                               const Settings& settings, const FrameArrays& to,

@@ -63,7 +63,8 @@ class Engine {
                                                              const Tracer* before = nullptr);
 
   // Draws one picture and waits for it: resolves, prepares (the last scene's trees are kept, also for another
-  // pose of it) and averages the samples. Phases "build" and "render".
+  // pose of it) and averages the samples. Phases "build" and "render". Errors: those of resolve(). Throws
+  // OpenGlError, and Cancelled after progress->cancel().
   [[nodiscard]] Expected<FrameResult> render(const Scene& scene, const View& view,
                                              const Settings& settings = {}, Progress* progress = nullptr);
 

@@ -80,17 +80,19 @@ void bind_light(nb::module_& module) {
           "With either,\n"
           "several samples (spp) give soft shadows.\n"
           "Raises Error if there is neither position nor direction, or if falloff is another word.")
-      .def_prop_ro("kind", [](const Light& light) { return kind_of(light).name; })
+      .def_prop_ro(
+          "kind", [](const Light& light) { return kind_of(light).name; },
+          "'point', 'directional', 'spot' or 'rectangle'.")
       .def_rw("name", &Light::name)
       .def_rw("casts_shadow", &Light::casts_shadow)
       .def_prop_rw(
           "direction", [](const Light& l) { return l.direction; },
-          [](Light& l, const Three& d) { l.direction = unit(d); })
+          [](Light& l, const Three& d) { l.direction = unit(d); }, "Unit; the light travels along it.")
       .def_prop_rw(
           "falloff",
           [](const Light& l) { return l.falloff == Light::Falloff::none ? "none" : "inverse_square"; },
           [](Light& l, const std::string& falloff) { l.falloff = falloff_of(falloff); })
-      .def_rw("range", &Light::range)
+      .def_rw("range", &Light::range, "In scene units; no light reaches beyond.")
       .def("__repr__",
            [](const Light& l) {
              const LightKind& kind = kind_of(l);
@@ -108,11 +110,13 @@ void bind_light(nb::module_& module) {
         unpickle(state, read);
         new (&self) Light(std::move(read));
       });
-  def_number(bound, "intensity", &Light::intensity, 0.0, kLargest);
+  def_number(bound, "intensity", &Light::intensity, 0.0, kLargest, "The factor of `color`.");
   def_number(bound, "radius", &Light::radius, 0.0, kLargest, "Of the shining sphere, in scene units.");
   def_number(bound, "angle", &Light::angle_deg, 0.0, 180.0, "The diameter of a sun's disc, in degrees.");
-  def_three(bound, "position", [](Light& l) -> glm::vec3& { return l.position; });
-  def_three(bound, "color", [](Light& l) -> glm::vec3& { return l.color; });
+  def_three(
+      bound, "position", [](Light& l) -> glm::vec3& { return l.position; }, "In world space, scene units.");
+  def_three(
+      bound, "color", [](Light& l) -> glm::vec3& { return l.color; }, "Linear RGB.");
 }
 
 }  // namespace pinocchio::python

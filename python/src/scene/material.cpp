@@ -58,7 +58,8 @@ void bind_material(nb::module_& module) {
           "fresnel"_a = false, "emission"_a = glm::vec3(0.0f), "ambient"_a = nb::none(),
           "texture"_a = nb::none(), "name"_a = "", "gloss"_a = 0.0f, "attenuation_color"_a = glm::vec3(1.0f),
           "attenuation_distance"_a = 0.0f, "double_sided"_a = nb::none(),
-          "ambient: None: as diffuse.\n"
+          "diffuse, specular, ambient, emission: linear RGB. ambient: None: as diffuse.\n"
+          "shininess: Phong's exponent. ior: of the inside, relative to the outside.\n"
           "reflectance: the weight of the mirrored ray; with `fresnel`, at normal incidence.\n"
           "transmittance: the weight of the refracted ray, which is refracted by `ior`.\n"
           "texture: (height, width, 3 or 4) uint8, sRGB. Its colour multiplies diffuse and ambient.\n"

@@ -41,7 +41,7 @@ float diameter(const char* name, double value) {
 
 PyScene load(const std::filesystem::path& path, bool confine, const std::string& shading,
              const std::variant<int, std::string>& animation, const std::string& up_axis, double point_size,
-             double line_width, const std::string& variant) {
+             double line_width, const std::string& variant, std::uint64_t load_limit_mib) {
   Warnings warnings;
   LoadOptions options;
   options.confine = confine;
@@ -56,6 +56,7 @@ PyScene load(const std::filesystem::path& path, bool confine, const std::string&
   options.point_size = diameter("point_size", point_size);
   options.line_width = diameter("line_width", line_width);
   options.variant = variant;
+  options.limit_bytes = std::min(load_limit_mib, ~std::uint64_t{0} >> 20) << 20;
   Scene scene = value_or_throw(
       without_gil([&](Progress* progress) { return load_scene(path, options, &warnings, progress); }));
   warn_of(warnings);
@@ -289,11 +290,13 @@ void bind_scene(nb::module_& module) {
   module.def(
       "load_scene", &load, "path"_a, "confine"_a = false, "shading"_a = "auto", "animation"_a = "",
       "up_axis"_a = "y", "point_size"_a = 0.0, "line_width"_a = 0.0, "variant"_a = "",
+      "load_limit"_a = kUsualLoadLimit >> 20,
       nb::sig(
           "def load_scene(path: str | os.PathLike[str], confine: bool = False, shading: str = 'auto', "
           "animation: int | str = '', up_axis: str = 'y', point_size: float = 0.0, line_width: float = 0.0, "
-          "variant: str = '') -> Scene"),
-      "Reads a scene by its extension, as the program does. What is left out of the file is a warning. With\n"
+          "variant: str = '', load_limit: int = 4096) -> Scene"),
+      "Reads a scene by its extension: .gltf, .glb, .obj, .ply or .stl. What is left out of the file is a "
+      "warning. With\n"
       "confine, files that it names are opened only below its folder, wherever names and links lead.\n"
       "shading: 'auto', the file's reflection model (glTF's for metallic-roughness materials, else Phong's), "
       "or 'phong'.\n"
@@ -303,7 +306,10 @@ void bind_scene(nb::module_& module) {
       "and lines. 0: they are left out.\n"
       "variant: the name of one of the file's variants of its materials (Scene.variants). '': those that it "
       "shows first.\n"
-      "Raises Error if a word is another one, or if there is no such animation or variant.");
+      "load_limit: the MiB of memory that the file may ask for beyond its own size (4096).\n"
+      "Raises Error if the file cannot be read, is damaged, needs more memory than that or, with confine, "
+      "names a file outside\n"
+      "its folder, if an argument has an unknown value, or if there is no such animation or variant.");
   module.def(
       "assemble", &assemble, "parts"_a,
       nb::sig("def assemble(parts: collections.abc.Mapping[str, Scene] | collections.abc.Mapping[str, "
@@ -311,7 +317,8 @@ void bind_scene(nb::module_& module) {
               "numpy.typing.ArrayLike]]) -> Scene"),
       "One scene of several: {name: scene} or {name: (scene, 4x4 matrix)}. Each becomes a node that "
       "can be moved\n"
-      "(Scene.posed), with its own nodes below it.");
+      "(Scene.posed), with its own nodes below it. Raises Error if a part is neither, or if there are no "
+      "triangles.");
 }
 
 }  // namespace pinocchio::python

@@ -17,7 +17,8 @@ struct PictureDifference {
   Image<float> flip_errors;               // of each pixel, in [0, 1]
 };
 
-// Linear RGB pictures of the same size, finite. pixels_per_degree: of visual angle, 1 to 1000. Any thread.
+// Linear RGB pictures of the same size, finite. pixels_per_degree: of visual angle, 1 to 1000.
+// `threads` 0: one for each core. Errors: different sizes, a value that is not finite. Any thread.
 [[nodiscard]] Expected<PictureDifference> compare_pictures(const Image<glm::vec3>& picture,
                                                            const Image<glm::vec3>& reference,
                                                            float pixels_per_degree = 67.0f, int threads = 0);
