@@ -33,8 +33,9 @@ int code_after_flush(int code) {
   std::cout.flush();
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return code;
+  if (code != kDone) return code;  // the verb's own line says why
   const std::string why = errno != 0 ? std::strerror(errno) : "it is full or closed";
-  return fail("standard output cannot be written: " + why, code == kDone ? kFailed : ExitCode(code));
+  return fail("standard output cannot be written: " + why, kFailed);
 }
 
 // Turns a verb's errors into one line and an exit code.

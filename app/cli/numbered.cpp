@@ -31,7 +31,7 @@ std::filesystem::path numbered(const std::string& pattern, int number) {
 }
 
 std::vector<int> numbers_in_use(const std::string& pattern, const FrameRange& range,
-                                const std::filesystem::path& other) {
+                                const std::vector<std::filesystem::path>& others) {
   if (pattern.find('#') == std::string::npos) return {range.first};
   std::filesystem::path folder, name;  // `name` is the part with the number
   for (const std::filesystem::path& part : std::filesystem::path(pattern)) {
@@ -44,7 +44,7 @@ std::vector<int> numbers_in_use(const std::string& pattern, const FrameRange& ra
     const std::optional<int> number = number_in(name.string(), file.filename().string());
     if (number && range.contains(*number)) numbers.push_back(*number);
   };
-  add_number_of(other);
+  for (const std::filesystem::path& other : others) add_number_of(other);
   // A folder that cannot be read is an error when a file is written there.
   for (const std::string& entry : names_in(folder)) {
     const std::filesystem::path file = folder / entry;

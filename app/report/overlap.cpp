@@ -16,10 +16,13 @@ struct Edge {
 
 Overlap overlap_of(const std::vector<FrameRecord>& records) {
   if (records.empty()) return {};
+  // Poses and trees are made ahead: those of the first frames began before them.
+  const double first_s = records.front().frame.begin_s, last_s = records.back().frame.end_s;
   std::vector<Edge> edges;
   for (const FrameRecord& record : records)
     for (std::size_t i = 0; i < record.stages.size(); ++i) {
-      const Span& span = record.stages[i];
+      const Span& whole = record.stages[i];
+      const Span span{std::max(whole.begin_s, first_s), std::min(whole.end_s, last_s)};
       if (!record.processors[i] || span.end_s <= span.begin_s) continue;
       const bool gpu = record.processors[i] == Processor::gpu;
       edges.push_back({span.begin_s, gpu, +1});
@@ -28,7 +31,7 @@ Overlap overlap_of(const std::vector<FrameRecord>& records) {
   std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.at_s < b.at_s; });
 
   Overlap overlap;
-  overlap.wall_s = records.back().frame.end_s - records.front().frame.begin_s;
+  overlap.wall_s = last_s - first_s;
   int gpu = 0, cpu = 0;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     (edges[i].gpu ? gpu : cpu) += edges[i].step;

@@ -36,12 +36,17 @@ Budget limits(const BudgetOptions& options) {
 }
 
 BudgetTrial::BudgetTrial(Engine& engine, const Settings& exact, const BudgetOptions& options,
-                         FrameSource frame)
+                         FrameSource frame, pinocchio::Progress* progress)
     : engine_(engine),
       metric_(options.error ? options.error->metric : "flip"),
       frame_(std::move(frame)),
-      pictures_(engine, {[this](Frame& picture) { picture.read_color(color_); }, {}}),
-      times_(engine, {}) {
+      pictures_(engine, {[this](Frame& picture) { picture.read_color(color_); }, {}}, progress),
+      times_(engine,
+             {[this](Frame& frame) {
+                if (mean_) mean_->add(frame);
+              },
+              {}},
+             progress) {
   const bool raster = exact.mask_bits.given && exact.reflection.given && !exact.traces();
   if (exact.composite == Processor::cpu || raster)
     throw Exit(kUsage, "--budget and --max-error need --mode hybrid and --design 1");
@@ -63,10 +68,12 @@ void BudgetTrial::step() {
 // The first frame is not timed: it compiles shaders and allocates buffers.
 double BudgetTrial::time_ms(Settings settings) {
   settings.reuse = false;  // else the frames of a still camera would take no time
-  times_.submit(frame_(settings, 0));
+  if (settings.max_noise > 0.0f) mean_.emplace(settings, [](FrameResult&&) {});
+  SampleMean* const mean = mean_ ? &*mean_ : nullptr;
+  submit_samples(times_, frame_(settings, 0), mean);
   times_.drain();
   const double begin_s = now_s();
-  for (int i = 0; i < kTimedFrames; ++i) times_.submit(frame_(settings, i + 1));
+  for (int i = 0; i < kTimedFrames; ++i) submit_samples(times_, frame_(settings, i + 1), mean);
   times_.drain();
   return 1e3 * (now_s() - begin_s) / kTimedFrames;
 }
@@ -76,10 +83,11 @@ namespace {
 // Measures at least one, also after an interrupt.
 std::vector<MeasuredSettings> front_of(Drawing& drawing, const DrawOptions& draw,
                                        const BudgetOptions& options, const CameraFrames& frames) {
-  BudgetTrial trial(drawing.engine(), drawing.settings(), options, [&](const Settings& settings, int i) {
+  const auto frame = [&](const Settings& settings, int i) {
     const std::size_t at = as_size(i) * frames.size() / (BudgetTrial::kTimedFrames + 1);
     return drawing.request(settings, frames[at]);
-  });
+  };
+  BudgetTrial trial(drawing.engine(), drawing.settings(), options, frame, &run_progress());
   Progress progress(draw.progress_mode(), "measuring plans", trial.count());
   while (trial.done() < trial.count() && !(interrupted() && trial.done() > 0)) {
     trial.step();

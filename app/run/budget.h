@@ -9,6 +9,7 @@
 #include "app/cli/parse.h"
 #include "app/run/animation.h"
 #include "app/run/drawing.h"
+#include "hybrid/frame/samples.h"
 #include "hybrid/settings/quality_controller.h"
 
 namespace pinocchio::app {
@@ -35,7 +36,9 @@ class BudgetTrial {
 
   // Ends the verb with kUsage unless both processors draw and the GPU composites: only that schedule has
   // parts that can be left out.
-  BudgetTrial(Engine& engine, const Settings& exact, const BudgetOptions& options, FrameSource frame);
+  // Throws Cancelled after progress->cancel().
+  BudgetTrial(Engine& engine, const Settings& exact, const BudgetOptions& options, FrameSource frame,
+              pinocchio::Progress* progress = nullptr);
 
   [[nodiscard]] std::size_t count() const { return ladder_.size(); }
   [[nodiscard]] std::size_t done() const { return measured_.size(); }
@@ -53,6 +56,7 @@ class BudgetTrial {
   std::vector<MeasuredSettings> measured_;
   Image<glm::vec3> exact_;  // picture by the first settings
   Image<glm::vec4> color_;
+  std::optional<SampleMean> mean_;  // with max_noise: it ends a picture early
   Renderer pictures_, times_;
 };
 

@@ -42,9 +42,11 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
   if (!resolved) {
     InputError error = resolved.error();
     error.file = options.plan_file;
-    throw Exit(
-        options.plan_file.empty() && !broken_rule(with_usual(options.settings, usual)) ? kBadScene : kUsage,
-        error.message());
+    Settings given = with_usual(options.settings, usual), drawn = given;
+    if (needs_rays_) draw_on_cpu(drawn);
+    if (!broken_rule(given) && broken_rule(drawn))
+      error.what += " (the CPU alone draws panoramas, fisheyes and distorted lenses)";
+    throw Exit(options.plan_file.empty() && !broken_rule(drawn) ? kBadScene : kUsage, error.message());
   }
   settings_ = *resolved;
   if (!options.quiet && !options.plan.empty())  // settings that are given one by one are known

@@ -129,12 +129,14 @@ void check_outputs(const OutputOptions& options, const FrameRange& range) {
 }
 
 std::vector<NamedFile> output_files(const OutputOptions& options, const FrameRange& range,
-                                    const NamedFile& other) {
-  std::vector<NamedFile> files{other};
+                                    const std::vector<NamedFile>& others) {
+  std::vector<NamedFile> files = others;
+  std::vector<std::filesystem::path> names;
+  for (const NamedFile& other : others) names.push_back(other.file);
   for (const auto& [role, pattern] :
        {std::pair("-o", options.exr), std::pair("--preview", options.preview)}) {
     if (pattern.empty()) continue;
-    for (const int number : numbers_in_use(pattern, range, other.file))
+    for (const int number : numbers_in_use(pattern, range, names))
       files.push_back({role, numbered(pattern, number)});
   }
   return files;

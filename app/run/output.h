@@ -79,10 +79,10 @@ void make_folder(const std::filesystem::path& folder);
 // kFailed where a file cannot be written.
 void check_outputs(const OutputOptions& options, const FrameRange& range);
 
-// The files of the frames that exist or may be the same as `other`, and `other` itself, which is written too;
-// each with the option that names it.
+// The files of the frames that exist or may be the same as one of `others`, and the others, which are written
+// too; each with the option that names it.
 [[nodiscard]] std::vector<NamedFile> output_files(const OutputOptions& options, const FrameRange& range,
-                                                  const NamedFile& other);
+                                                  const std::vector<NamedFile>& others);
 
 // Whether an EXR is written that has the shadow mask, or the layer motion.
 [[nodiscard]] bool keeps_mask(const OutputOptions& options);

@@ -21,10 +21,14 @@ struct GenerateOptions {
 };
 
 int generate(const GenerateOptions& options) {
+  const std::string file = options.file.empty() ? options.name + ".gltf" : options.file;
+  const SceneFormat* const format = find_scene_format(file);
+  if (!format || !format->save)
+    throw Exit(kUsage, file + ": scenes are written as " + scene_extensions(FormatUse::written) +
+                           "; give a name with one of these extensions");
   ProceduralOptions procedural = options.procedural;
   procedural.progress = &run_progress();
   const Scene scene = value_or_exit(make_procedural(options.name, procedural), kUsage);
-  const std::string file = options.file.empty() ? options.name + ".gltf" : options.file;
   save_scene(scene, file, &run_progress());
   std::printf("%s: %zu triangles\n", file.c_str(), scene.mesh->triangles.size());
   return kDone;

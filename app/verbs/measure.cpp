@@ -1,6 +1,7 @@
 // measure: frames along a camera path; the bytes, times and latency of each.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,7 @@
 #include "app/cli/options.h"
 #include "app/report/chrome_trace.h"
 #include "app/report/overlap.h"
+#include "app/report/picture_records.h"
 #include "app/report/stats.h"
 #include "app/run/animation.h"
 #include "app/run/budget.h"
@@ -20,15 +22,16 @@
 #include "core/parallel/workers.h"
 #include "gl/context/context.h"
 #include "hybrid/exchange/channels.h"
+#include "hybrid/frame/samples.h"
 #include "hybrid/frame/schedule.h"
 #include "hybrid/inspect/exchange_cost.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::app {
 namespace {
 
 constexpr int kDefaultFrames = 120;
 constexpr std::size_t kFewestForPercentiles = 5;
-constexpr std::size_t kMostFrames = 100'000;  // each one's figures are kept, some 260 bytes
 
 struct MeasureOptions {
   DrawOptions draw;
@@ -42,23 +45,35 @@ struct MeasureOptions {
 struct Measured {
   std::string name;
   Settings settings;
-  std::vector<FrameRecord> records;
+  std::vector<FrameRecord> records;   // of pictures
+  std::vector<FrameRecord> frames{};  // of their samples
   std::optional<BudgetRun> budget{};
 };
 
-// The first frames fill the pipeline, allocate buffers and compile shaders: they are not counted.
-void drop_warm_up(std::vector<FrameRecord>& records) {
-  const std::size_t warm_up = std::min<std::size_t>(kFramesInFlight, records.size() / 2);
-  records.erase(records.begin(), records.begin() + warm_up);
+// The first pictures fill the pipeline, allocate buffers and compile shaders: they are not counted. `ends`:
+// the number of frames up to each picture's end.
+void drop_warm_up(Measured& run, const std::vector<std::size_t>& ends) {
+  const std::size_t warm_up = std::min<std::size_t>(kFramesInFlight, run.records.size() / 2);
+  if (warm_up == 0) return;
+  run.records.erase(run.records.begin(), run.records.begin() + warm_up);
+  run.frames.erase(run.frames.begin(), run.frames.begin() + ends[warm_up - 1]);
 }
 
 void draw(Drawing& drawing, const MeasureOptions& options, const CameraFrames& frames, Measured& run) {
   Progress progress(options.draw.progress_mode(), run.name, frames.size());
+  std::vector<std::size_t> ends;
+  PictureRecords pictures(run.settings.spp, [&](const FrameRecord& record) {
+    run.records.push_back(record);
+    ends.push_back(run.frames.size());
+    progress.step();
+  });
+  SampleMean mean(run.settings, [](FrameResult&&) {});
+  const bool adaptive = run.settings.max_noise > 0.0f && run.settings.spp > 1;
   Renderer renderer(drawing.engine(),
-                    {{},
+                    {adaptive ? [&](Frame& frame) { mean.add(frame); } : std::function<void(Frame&)>(),
                      [&](const FrameRecord& record) {
-                       run.records.push_back(record);
-                       progress.step();
+                       run.frames.push_back(record);
+                       pictures.add(record);
                      }},
                     &run_progress());
   for (std::size_t i = 0; i < frames.size() && !interrupted(); ++i) {
@@ -66,12 +81,14 @@ void draw(Drawing& drawing, const MeasureOptions& options, const CameraFrames& f
     const std::optional<CameraFrame> next =
         i + 1 < frames.size() ? std::optional(frames[i + 1]) : std::nullopt;
     const double begin_s = now_s();
-    renderer.submit(drawing.request(run.settings, frames[i], next ? &*next : nullptr));
+    submit_samples(renderer, drawing.request(run.settings, frames[i], next ? &*next : nullptr),
+                   adaptive ? &mean : nullptr);
+    if (adaptive) pictures.end();  // it may have fewer samples
     if (run.budget) run.budget->note(1e3 * (now_s() - begin_s));
   }
   renderer.drain();
   drawing.engine().throw_gl_complaints();
-  drop_warm_up(run.records);
+  drop_warm_up(run, ends);
 }
 
 // The exchange alone, without waiting for frames.
@@ -94,7 +111,7 @@ nlohmann::json exchange_json(Engine& engine, const Measured& run, const MeasureO
 }
 
 nlohmann::json overlap_json(const Measured& run) {
-  const Overlap o = overlap_of(run.records);
+  const Overlap o = overlap_of(run.frames);
   const double wall_s = std::max(o.wall_s, 1e-9);
   return {{"gpu_busy", o.gpu_s / wall_s}, {"cpu_busy", o.cpu_s / wall_s}, {"both_busy", o.both_s / wall_s}};
 }
@@ -124,6 +141,7 @@ void print_header(const Drawing& drawing, const MeasureOptions& options) {
 
 // --bounds: what a frame sends where all of its tiles have mirrored light.
 void print_bounds(const Drawing& drawing, const MeasureOptions& options) {
+  const int spp = drawing.settings().spp;
   std::printf("bytes a frame, at most GPU to CPU   CPU to GPU\n");
   for (const char* const plan : {"auto", "slides"}) {
     Settings wanted;
@@ -133,7 +151,8 @@ void print_bounds(const Drawing& drawing, const MeasureOptions& options) {
     const Expected<Settings> settings = drawing.resolve(wanted);
     if (!settings) continue;
     const TrafficBytes traffic = traffic_of(*settings, part_of(options.draw).size());
-    std::printf("  --plan %-12s %12zu %12zu\n", plan, traffic.to_cpu, traffic.to_gpu);
+    std::printf("  --plan %-12s %12zu %12zu\n", plan, as_size(spp) * traffic.to_cpu,
+                as_size(spp) * traffic.to_gpu);
   }
 }
 
@@ -248,9 +267,13 @@ int measure(MeasureOptions& options) {
   if (options.animation.turntable == 0 && options.animation.path.empty())
     options.animation.turntable = kDefaultFrames;
   const CameraFrames frames(options.animation, options.draw, scene);
-  if (frames.size() > kMostFrames)
-    throw Exit(kUsage, std::to_string(frames.size()) + " frames are more than measure keeps figures of (" +
-                           std::to_string(kMostFrames) + "); give fewer --frames");
+  if (const std::size_t all = frames.size() * as_size(options.draw.settings.spp.value); all > kMostRecords)
+    throw Exit(kUsage, std::to_string(all) + " frames are more than measure keeps figures of (" +
+                           std::to_string(kMostRecords) + "); give fewer --frames or a lower --spp");
+  if (options.compare && !frames[0].camera.is_rasterisable())
+    throw Exit(kUsage,
+               "--compare measures what OpenGL draws, and it draws no panorama, fisheye or distorted lens; "
+               "give another --projection or --camera");
   check_apart(input_files(options.draw, options.animation, scene),
               {{"--stats-json", options.stats_json}, {"--trace", options.trace}});
   for (const std::string& file : {options.stats_json, options.trace})
@@ -268,7 +291,7 @@ int measure(MeasureOptions& options) {
   }
   if (!options.stats_json.empty())
     write_json(options.stats_json, options.compare ? nlohmann::json{{"runs", json}} : json.front());
-  if (!options.trace.empty()) write_json(options.trace, chrome_trace(runs.front().records));
+  if (!options.trace.empty()) write_json(options.trace, chrome_trace(runs.front().frames));
   if (options.draw.quiet) return kDone;
   print_header(drawing, options);
   if (options.bounds) print_bounds(drawing, options);

@@ -15,6 +15,8 @@
 #include "app/cli/console.h"
 #include "app/cli/errors.h"
 #include "app/cli/options.h"
+#include "app/report/chrome_trace.h"
+#include "app/report/picture_records.h"
 #include "app/report/stats.h"
 #include "app/run/animation.h"
 #include "app/run/budget.h"
@@ -43,7 +45,7 @@ struct RenderOptions {
   AnimationOptions animation;
   BudgetOptions budget;
   OutputOptions output;
-  std::string stats_json;
+  std::string stats_json, trace;
   const CLI::Option* exposure = nullptr;  // --exposure
 };
 
@@ -95,6 +97,7 @@ class RenderRun {
     if (find_next_frame(drawing)) draw(drawing);
     progress_.reset();
     if (!options_.stats_json.empty()) write_json(options_.stats_json, stats(drawing));
+    if (!options_.trace.empty()) write_json(options_.trace, chrome_trace(frame_records_));
     if (!options_.draw.quiet && !options_.output.raw) report(drawing, ready_s - begin_s);
     throw_if_cancelled(&run_progress());
     return kDone;
@@ -124,16 +127,18 @@ class RenderRun {
     if (options_.draw.precise && (options_.draw.settings.denoise || options_.draw.settings.average_layers))
       throw Exit(kUsage, "--precise draws no --denoise and no --average-layers; leave out one of them");
     if (options_.output.exr.empty() && options_.output.preview.empty() && !options_.output.raw &&
-        options_.stats_json.empty())
-      throw Exit(kUsage,
-                 "nothing to write; name a file with -o FILE.exr, --preview FILE.png or --stats-json, or "
-                 "write frames to standard output with --raw -");
+        options_.stats_json.empty() && options_.trace.empty())
+      throw Exit(
+          kUsage,
+          "nothing to write; name a file with -o FILE.exr, --preview FILE.png, --stats-json or --trace, "
+          "or write frames to standard output with --raw -");
     if (options_.output.raw && isatty(STDOUT_FILENO) != 0)
       throw Exit(
           kUsage,
           "--raw - writes binary data, which a terminal cannot show; pipe them to a program or a file");
     check_apart(input_files(options_.draw, options_.animation, scene),
-                output_files(options_.output, frames_->range(), {"--stats-json", options_.stats_json}));
+                output_files(options_.output, frames_->range(),
+                             {{"--stats-json", options_.stats_json}, {"--trace", options_.trace}}));
     check_outputs(options_.output, frames_->range());
     if (options_.output.skip_existing && (options_.output.exr.empty() || options_.budget.any()))
       throw Exit(kUsage,
@@ -143,7 +148,12 @@ class RenderRun {
     if (options_.output.skip_existing && options_.draw.settings.exchange == Exchange::reproject)
       throw Exit(kUsage,
                  "--skip-existing: a reprojected frame depends on earlier frames; use --exchange pipelined");
-    if (!options_.stats_json.empty()) check_writable(options_.stats_json);
+    for (const std::string& file : {options_.stats_json, options_.trace})
+      if (!file.empty()) check_writable(file);
+    if (const std::size_t all = frames_->size() * as_size(options_.draw.settings.spp.value);
+        !options_.trace.empty() && all > kMostRecords)
+      throw Exit(kUsage, std::to_string(all) + " samples are more than --trace keeps (" +
+                             std::to_string(kMostRecords) + "); give fewer --frames or a lower --spp");
   }
 
   [[nodiscard]] FrameHeader header_of(const CameraFrame& frame, std::size_t place) const {
@@ -201,15 +211,19 @@ class RenderRun {
   template <class Receive>
   void draw_frames(Drawing& drawing, Receive receive) {
     SampleMean mean(drawing.settings(), receive);
-    Renderer renderer(
-        drawing.engine(),
-        {[&](Frame& frame) { mean.add(frame); }, [&](const FrameRecord& record) { keep(record); }},
-        &run_progress());
+    PictureRecords pictures(drawing.settings().spp, [&](const FrameRecord& record) { keep(record); });
+    const auto keep_frame = [&](const FrameRecord& record) {
+      pictures.add(record);
+      if (!options_.trace.empty()) frame_records_.push_back(record);
+    };
+    Renderer renderer(drawing.engine(), {[&](Frame& frame) { mean.add(frame); }, keep_frame},
+                      &run_progress());
     while (const std::optional<CameraFrame> frame = begin_frame(drawing)) {
       const double begin_s = now_s();
       delivering_s_ = 0.0;
       const Settings& settings = budget_ ? budget_->settings() : drawing.settings();
       submit_samples(renderer, drawing.request(settings, *frame, find_next_frame(drawing)), &mean);
+      if (settings.max_noise > 0.0f) pictures.end();  // it may have fewer samples
       if (budget_) budget_->note(1e3 * (now_s() - begin_s - delivering_s_));
     }
     renderer.drain();
@@ -227,6 +241,7 @@ class RenderRun {
       record[Stage::composite].end_s = record.frame.end_s = now_s();
       receive(std::move(mean));
       keep(record);
+      if (!options_.trace.empty()) frame_records_.push_back(record);
     }
   }
 
@@ -248,7 +263,7 @@ class RenderRun {
             other.camera};
   }
 
-  // Records are kept only for --stats-json: ranges may be long.
+  // Of a picture. Records are kept only for --stats-json: ranges may be long.
   void keep(const FrameRecord& record) {
     ++recorded_;
     for (std::size_t i = 0; i < kStageNames.size(); ++i) stage_ms_[i] += record.stages[i].ms();
@@ -292,8 +307,9 @@ class RenderRun {
   std::optional<BudgetRun> budget_;
   std::size_t recorded_ = 0;
   std::array<double, kStageNames.size()> stage_ms_{};  // sums over all frames
-  std::vector<FrameRecord> records_;
-  std::vector<int> written_;  // numbers of the frames whose files are complete
+  std::vector<FrameRecord> records_;                   // of pictures
+  std::vector<FrameRecord> frame_records_;             // of their samples, for --trace
+  std::vector<int> written_;                           // numbers of the frames whose files are complete
   std::size_t delivered_ = 0;
   std::size_t skipped_ = 0;
   std::size_t holes_ = 0;  // of the reprojection: pixels that the older frame did not see
@@ -311,6 +327,7 @@ Run add_render(CLI::App& program) {
   add_output_options(verb, options->output);
   options->exposure = verb.get_option("--exposure");
   verb.add_option("--stats-json", options->stats_json, "write the figures of the run as JSON");
+  verb.add_option("--trace", options->trace, "write a Chrome trace, for Perfetto or chrome://tracing");
   return [options] { return RenderRun(*options).run(); };
 }
 

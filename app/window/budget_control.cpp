@@ -45,6 +45,7 @@ void BudgetControl::begin(const Settings& exact) {
                                          [view = model_.request()](const Settings& settings, int) {
                                            FrameRequest request = view;
                                            request.settings = settings;
+                                           request.settings.spp = 1;  // a frame of the window is a sample
                                            return request;
                                          });
 }

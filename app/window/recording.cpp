@@ -12,6 +12,7 @@
 #include "hybrid/frame/samples.h"
 #include "pinocchio/conversion.h"
 #include "pinocchio/save.h"
+#include "pinocchio/studio.h"
 
 namespace pinocchio::app {
 namespace {
@@ -172,6 +173,8 @@ std::string Recording::print_command(const Settings& settings, const DrawOptions
     }
   }
   view.settings = settings;
+  view.denoised = model_.drawn.denoise;
+  view.studio_light = has_studio_light(model_.scene);
   view.camera = model_.camera.camera();
   view.environment = environment_file(draw);
   view.size = model_.wanted_size();

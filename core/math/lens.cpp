@@ -12,6 +12,7 @@ namespace {
 constexpr int kMostSteps = 50;
 constexpr double kExact = 1e-13;  // of the inverse, relative
 constexpr int kPartsOfWay = 16;   // at which the model is checked to grow
+constexpr int kStepsOutwards = 16;
 
 // The columns are the changes with x and y.
 glm::dmat2 change_of(const LensCoefficients& c, glm::dvec2 at) {
@@ -51,12 +52,14 @@ glm::dvec2 distorted(const LensCoefficients& c, glm::dvec2 at) {
           y * factor + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
 }
 
-// Newton's method, with shorter steps where a whole one leads away.
-std::optional<glm::dvec2> undistorted(const LensCoefficients& k, glm::dvec2 at) {
-  glm::dvec2 found = at, error = distorted(k, found) - at;
+namespace {
+
+// Newton's method from `found` on, with shorter steps where a whole one leads away.
+std::optional<glm::dvec2> undistorted_from(const LensCoefficients& k, glm::dvec2 at, glm::dvec2 found) {
+  glm::dvec2 error = distorted(k, found) - at;
   for (int i = 0; i < kMostSteps && glm::length(error) > kExact * (1.0 + glm::length(at)); ++i) {
     const glm::dmat2 change = change_of(k, found);
-    if (!(std::abs(glm::determinant(change)) > 1e-12)) return std::nullopt;
+    if (!(glm::determinant(change) > 1e-12)) return std::nullopt;  // it has stopped growing
     glm::dvec2 step = glm::inverse(change) * error;
     for (int half = 0; half < 20; ++half, step *= 0.5)
       if (glm::length(distorted(k, found - step) - at) < glm::length(error)) break;
@@ -69,12 +72,28 @@ std::optional<glm::dvec2> undistorted(const LensCoefficients& k, glm::dvec2 at) 
   return found;
 }
 
+}  // namespace
+
+std::optional<glm::dvec2> undistorted(const LensCoefficients& k, glm::dvec2 at) {
+  if (const auto found = undistorted_from(k, at, at)) return found;
+  // `at` itself may lie beyond where the model grows: from the axis outwards, each place from the last.
+  glm::dvec2 found(0.0);
+  for (int i = 1; i <= kStepsOutwards; ++i) {
+    const auto next = undistorted_from(k, (as_double(i) / kStepsOutwards) * at, found);
+    if (!next) return std::nullopt;
+    found = *next;
+  }
+  return found;
+}
+
 double fisheye_distance(const LensCoefficients& k, double angle) {
   const double a2 = angle * angle;
   return angle * (1.0 + a2 * (k[0] + a2 * (k[1] + a2 * (k[2] + a2 * k[3]))));
 }
 
-std::optional<double> fisheye_angle(const LensCoefficients& k, double distance) {
+namespace {
+
+std::optional<double> fisheye_angle_by_newton(const LensCoefficients& k, double distance) {
   double angle = std::min(distance, glm::pi<double>());
   for (int i = 0; i < kMostSteps; ++i) {
     const double change = fisheye_change(k, angle);
@@ -89,6 +108,35 @@ std::optional<double> fisheye_angle(const LensCoefficients& k, double distance) 
   for (int i = 1; i <= kPartsOfWay; ++i)
     if (!(fisheye_change(k, angle * i / kPartsOfWay) > 0.0)) return std::nullopt;
   return angle;
+}
+
+// The last place of [lo, hi] that is not above, by 60 halvings.
+template <class Above>
+double last_below(double lo, double hi, const Above& is_above) {
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (lo + hi);
+    (is_above(middle) ? hi : lo) = middle;
+  }
+  return lo;
+}
+
+}  // namespace
+
+std::optional<double> fisheye_angle(const LensCoefficients& k, double distance) {
+  if (const auto found = fisheye_angle_by_newton(k, distance)) return found;
+  // From the axis outwards, up to where the model stops growing.
+  constexpr int kParts = 64;
+  double angle = 0.0;
+  for (int i = 1; i <= kParts; ++i) {
+    double next = glm::pi<double>() * i / kParts;
+    const bool grows = fisheye_change(k, next) > 0.0;
+    if (!grows) next = last_below(angle, next, [&](double a) { return !(fisheye_change(k, a) > 0.0); });
+    if (fisheye_distance(k, next) >= distance)
+      return last_below(angle, next, [&](double a) { return fisheye_distance(k, a) >= distance; });
+    if (!grows) return std::nullopt;
+    angle = next;
+  }
+  return std::nullopt;
 }
 
 }  // namespace pinocchio

@@ -1,7 +1,6 @@
 #include "core/reference/reference.h"
 
 #include "core/parallel/tiles.h"
-#include "core/trace/view/view_params.h"
 #include "pinocchio/conversion.h"
 
 namespace pinocchio {
@@ -13,13 +12,13 @@ ReferencePicture reference_render(const Scene& scene, const View& view, int dept
   const bool mirrors = depth > 0 || scene.environment;
   ReferencePicture picture{Image<std::uint32_t>(size), MaskImage(size, MaskImage::bits_for(casting)),
                            mirrors ? Image<glm::vec3>(size) : Image<glm::vec3>(), Image<glm::vec4>(size)};
-  const shared::ViewParams rays = view_params(view);
+  const ReferenceCamera camera(view);
 
   const ReferenceTree tree(*scene.mesh, progress);
   options.jitter = view.jitter;
   const ReferenceTracer tracer(scene, tree, options);
   const auto draw_pixel = [&](int x, int y) {
-    const ReferenceTracer::Pixel pixel = tracer.pixel(rays, x, y, depth);
+    const ReferenceTracer::Pixel pixel = tracer.pixel(camera, x, y, depth);
     picture.ids.at(x, y) = pixel.triangle;
     for (std::size_t slot = 0; slot < pixel.mask.size(); ++slot)
       if (pixel.mask[slot]) picture.mask.set_bit(x, y, as_int(slot));

@@ -35,27 +35,45 @@ ReferenceTracer::Cone ReferenceTracer::cone_after(const ReferenceRay& ray, const
   return {ray.width + ray.angle * hit.t * glm::length(ray.direction), ray.angle, ray.of_camera};
 }
 
-ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, int x, int y, int depth) const {
-  const double footprint = as_double(options_.texture_footprint);
-  ReferenceRay ray = reference_pixel_ray(view, x, y);
-  // The angle between parallel rays is 0, which would mean that nothing is averaged.
-  const double height = footprint * glm::length(glm::dvec3(view.step_y));
-  ray.angle = view.parallel ? std::min(height, 1e-30) : height;
-  if (view.parallel) ray.width = height;
-  ray.of_camera = true;
-  const ReferenceHit hit = closest_hit(ray);
+ReferenceTracer::PixelRay ReferenceTracer::pixel_ray(const ReferenceCamera& camera, int x, int y) const {
+  const shared::ViewParams& view = camera.params;
+  const double side = as_double(options_.texture_footprint);
+  PixelRay of{reference_pixel_ray(view, x, y), side * glm::dvec3(view.step_x),
+              side * glm::dvec3(view.step_y)};
+  if (camera.model) {
+    const Ray ray = camera.model->ray(x, y);
+    const Footprint footprint = camera.model->footprint({x, y}, options_.texture_footprint);
+    of = {{glm::dvec3(ray.origin), glm::dvec3(ray.direction)},
+          glm::dvec3(footprint.step_x),
+          glm::dvec3(footprint.step_y)};
+    of.ray.angle = as_double(footprint.angle);
+  } else {
+    // The angle between parallel rays is 0, which would mean that nothing is averaged.
+    const double height = glm::length(of.step_y);
+    of.ray.angle = view.parallel ? std::min(height, 1e-30) : height;
+    if (view.parallel) of.ray.width = height;
+  }
+  of.ray.of_camera = true;
+  return of;
+}
+
+ReferenceTracer::Pixel ReferenceTracer::pixel(const ReferenceCamera& camera, int x, int y, int depth) const {
+  const PixelRay of = pixel_ray(camera, x, y);
+  const ReferenceRay& ray = of.ray;
+  const bool sees = ray.direction != glm::dvec3(0.0);
+  const ReferenceHit hit = sees ? closest_hit(ray) : ReferenceHit{};
   Pixel pixel;
   pixel.triangle = hit.triangle;
   if (!hit.valid()) {
     pixel.color = glm::vec4(behind(ray));
     return pixel;
   }
-  const double side = view.parallel ? footprint : footprint * hit.t;
-  ReferenceSpread spread{ray.direction, side * glm::dvec3(view.step_x), side * glm::dvec3(view.step_y)};
-  if (footprint == 0.0) spread = {};
+  const double way_of_steps = !camera.model && camera.params.parallel ? 1.0 : hit.t;
+  ReferenceSpread spread;
+  if (ray.angle > 0.0) spread = {ray.direction, way_of_steps * of.step_x, way_of_steps * of.step_y};
   const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread);
   Media media = media_at(nullptr, hit, surface);
-  media.here = medium_of_eye(view);
+  media.here = medium_of_eye(camera);
   if (media.here && surface.material.ior == 1.0 && !scene_.mesh->material_of(hit.triangle).attenuates())
     media.beyond = media.here;
   const glm::dvec3 way = left_of_light(media.here, hit.t * glm::length(ray.direction));
@@ -70,9 +88,10 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
 
 glm::dvec4 ReferenceTracer::behind(const ReferenceRay& ray) const {
   glm::dvec3 light(0.0);
-  if (backdrop_) light = backdrop_->radiance(ray.direction);
+  const bool sees = ray.direction != glm::dvec3(0.0);
+  if (backdrop_ && sees) light = backdrop_->radiance(ray.direction);
   if (options_.background.kind == Background::Kind::color) light = glm::dvec3(options_.background.color);
-  const double lost = options_.catcher_height ? lost_on_ground(ray) : 0.0;
+  const double lost = options_.catcher_height && sees ? lost_on_ground(ray) : 0.0;
   return {(1.0 - lost) * light, lost};
 }
 
@@ -358,8 +377,10 @@ ReferenceTracer::Arrival ReferenceTracer::arriving(const ReferenceRay& ray, cons
 
 // Three rays from the eye: where it is inside a body, they meet its surface from behind once more than from
 // in front. Two have to agree.
-const Material* ReferenceTracer::medium_of_eye(const shared::ViewParams& view) const {
-  if (!absorbs_ || view.parallel) return nullptr;
+const Material* ReferenceTracer::medium_of_eye(const ReferenceCamera& camera) const {
+  const shared::ViewParams& view = camera.params;
+  const bool one_eye = camera.model ? camera.model->has_one_eye() : !view.parallel;
+  if (!absorbs_ || !one_eye) return nullptr;
   const auto along = [&](const glm::dvec3& direction) -> const Material* {
     std::vector<std::pair<const Material*, int>> depths;
     ReferenceRay ray{glm::dvec3(view.eye), direction};

@@ -9,10 +9,20 @@
 #include "core/reference/reference_surface.h"
 #include "core/reference/reference_tree.h"
 #include "core/trace/rays/trace_options.h"
+#include "core/trace/view/ray_model.h"
+#include "core/trace/view/view_params.h"
 #include "pinocchio/conversion.h"
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
+
+// What the rays of a picture's pixels are made of.
+struct ReferenceCamera {
+  explicit ReferenceCamera(const View& view) : params(view_params(view)), model(RayModel::of(view)) {}
+
+  shared::ViewParams params;
+  std::optional<RayModel> model;  // for views that no rasteriser draws; none: `params` alone
+};
 
 // Draws the reference pixel by pixel. Light along rays: I = Ia + sum over lights of (Id + Is) + Ir(R) + It(T)
 // + emission (Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980). Every bounce
@@ -44,8 +54,8 @@ class ReferenceTracer {
     // catcher lost. On a transparent background, surfaces that blend have less than 1.
     glm::vec4 color{0.0f};
   };
-  // The pixel (x, y), counted from view.first, with at most `depth` bounces.
-  [[nodiscard]] Pixel pixel(const shared::ViewParams& view, int x, int y, int depth) const;
+  // The pixel (x, y), counted from the first drawn one, with at most `depth` bounces.
+  [[nodiscard]] Pixel pixel(const ReferenceCamera& camera, int x, int y, int depth) const;
 
  private:
   // The surface's light without mirrors, glass and environment: what comes unhindered, and what came through
@@ -68,6 +78,12 @@ class ReferenceTracer {
     double width, angle;
     bool of_camera;
   };
+  // A pixel's ray, and the sides of the sample's share of the pixel: at t = 1, of parallel rays at any t.
+  struct PixelRay {
+    ReferenceRay ray;
+    glm::dvec3 step_x, step_y;
+  };
+  [[nodiscard]] PixelRay pixel_ray(const ReferenceCamera& camera, int x, int y) const;
   [[nodiscard]] static Cone cone_after(const ReferenceRay& ray, const ReferenceHit& hit);
   // A glossy surface has lobe_side squared mirrored rays, and fewer at the hits of these rays.
   static constexpr int kLobeSide = 16;
@@ -99,7 +115,7 @@ class ReferenceTracer {
   [[nodiscard]] glm::dvec3 passing(const ReferenceSurface& surface) const;
   [[nodiscard]] glm::dvec3 passing_glass(const ReferenceSurface& surface) const;
   // The material of the innermost body that absorbs light around the eye; null: none.
-  [[nodiscard]] const Material* medium_of_eye(const shared::ViewParams& view) const;
+  [[nodiscard]] const Material* medium_of_eye(const ReferenceCamera& camera) const;
 
   const Scene& scene_;
   const ReferenceTree& tree_;

@@ -24,14 +24,14 @@ static_assert(TileGrid::kTileSize % kSteps.front() == 0);  // samples of a tile 
 struct ProgressiveReference::Job {
   Job(const ReferenceView& of, std::shared_ptr<pinocchio::Progress> mesh_progress)
       : scene(of.scene),
-        view(view_params(of.view)),
+        camera(of.view),
         size(of.view.box().size()),
         depth(of.depth),
         options(of.options),
         of_mesh(std::move(mesh_progress)) {}
 
   Scene scene;
-  shared::ViewParams view;
+  ReferenceCamera camera;
   glm::ivec2 size;
   int depth;
   TraceOptions options;
@@ -78,7 +78,7 @@ class ProgressiveReference::Painter {
       for (int x = tile.lo.x; x < tile.hi.x; x += step) {
         if (job.of_view.cancelled()) return;
         if (last_step > 0 && x % last_step == 0 && y % last_step == 0) continue;  // of an earlier pass
-        patch.samples.push_back({{x, y}, tracer.pixel(job.view, x, y, job.depth).color});
+        patch.samples.push_back({{x, y}, tracer.pixel(job.camera, x, y, job.depth).color});
       }
     const std::lock_guard lock(job.mutex);
     job.patches.push_back(std::move(patch));

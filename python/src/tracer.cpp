@@ -38,11 +38,11 @@ struct Rays {
   Floats3::Array o, d;
   std::optional<Floats::Array> t_max;
   const float *origins, *directions, *lengths;
-  std::size_t count, origin_step;  // 0: one origin for all
+  std::size_t count, origin_step, length_step;  // 0: one for all
 
   [[nodiscard]] Ray ray(std::size_t i) const {
     const float *o = origins + i * origin_step, *d = directions + 3 * i;
-    return {{o[0], o[1], o[2]}, lengths ? lengths[i] : kInfinity, {d[0], d[1], d[2]}};
+    return {{o[0], o[1], o[2]}, lengths ? lengths[i * length_step] : kInfinity, {d[0], d[1], d[2]}};
   }
 };
 
@@ -54,13 +54,19 @@ Rays rays_of(const Floats3& origins, const Floats3& directions, const std::optio
             .directions = nullptr,
             .lengths = nullptr,
             .count = 0,
-            .origin_step = 0};
+            .origin_step = 0,
+            .length_step = 1};
   const std::size_t n = rays.d.shape(0);
   if (rays.o.shape(0) != n && rays.o.shape(0) != 1)
     throw Error("there are " + std::to_string(rays.o.shape(0)) + " origins and " + std::to_string(n) +
                 " directions; give the same number, or one origin");
-  if (t_max) rays.t_max = t_max->read("t_max");
-  if (rays.t_max && rays.t_max->shape(0) != n) throw Error("t_max must have one number for each ray");
+  if (t_max) {
+    const bool is_number = !nb::hasattr(t_max->source, "__len__");
+    rays.t_max = (is_number ? Floats{nb::make_tuple(t_max->source)} : *t_max).read("t_max");
+  }
+  if (rays.t_max && rays.t_max->shape(0) != n && rays.t_max->shape(0) != 1)
+    throw Error("t_max must have one number for each ray, or one for all");
+  if (rays.t_max && rays.t_max->shape(0) != n) rays.length_step = 0;
   rays.origins = rays.o.data();
   rays.directions = rays.d.data();
   rays.lengths = rays.t_max ? rays.t_max->data() : nullptr;
@@ -335,7 +341,8 @@ void bind_tracer(nb::module_& module) {
           "closest_hits", &ArrayTracer::closest_hits, "origins"_a, "directions"_a, "t_max"_a = nb::none(),
           "The closest hit of each ray, as Hits: `t, triangle = tracer.closest_hits(...)`, or hits.distance, "
           "hits.node and so on.\n"
-          "origins: (n, 3), or (1, 3) for all rays. directions: (n, 3), of any length. t_max: (n,), or "
+          "origins: (n, 3), or (1, 3) for all rays. directions: (n, 3), of any length. t_max: (n,), one "
+          "number, or "
           "None: infinity.\n"
           "Raises Error if the numbers of rays differ.")
       .def("occluded", &ArrayTracer::occluded, "origins"_a, "directions"_a, "t_max"_a = nb::none(),

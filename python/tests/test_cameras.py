@@ -275,3 +275,14 @@ def test_textures_are_averaged_as_wide_as_the_pixels_of_a_camera(name):
     off = {filtered: numpy.sqrt(((engine.render(scene, camera, size, filter_textures=filtered).color[..., :3] - truth)[seen] ** 2).mean())
            for filtered in (True, False)}
     assert off[True] < 0.5 * off[False], off
+
+
+def test_motion_in_a_panorama_goes_the_shorter_way():
+    # A wall behind the eye, where the picture's edges meet.
+    wall = pn.Scene([[-3, -3, 5], [3, -3, 5], [3, 3, 5], [-3, 3, 5]], [[0, 2, 1], [0, 3, 2]])
+    here, turned = (pn.Camera.panorama(eye=(0, 0, 0), target=target) for target in ((0, 0, -1), (0.05, 0, -1)))
+    picture = pn.Engine().render(wall, here, (64, 32))
+    seen = picture.ids != 0xFFFFFFFF
+    assert seen[16, 0] and seen[16, -1]
+    motion = picture.motion(camera=turned)[seen]
+    numpy.testing.assert_allclose(abs(motion[:, 0]), 64 * numpy.arctan(0.05) / (2 * numpy.pi), atol=1e-3)

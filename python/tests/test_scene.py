@@ -186,3 +186,9 @@ def test_confined_scenes_name_files_below_their_folder_only(tmp_path):
     assert len(pn.load_scene(scene).vertices) == 3
     with pytest.raises(pn.Error, match="lies outside the scene's folder"):
         pn.load_scene(scene, confine=True)
+
+
+def test_the_memory_that_a_file_may_ask_for_is_limited(scenes):
+    with pytest.raises(pn.Error, match="load_limit"):
+        pn.load_scene(scenes / "terrace.glb", load_limit=1)
+    assert pn.load_scene(scenes / "terrace.glb", load_limit=1000).triangles.shape[1] == 3

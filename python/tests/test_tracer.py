@@ -66,7 +66,11 @@ def test_occlusion_is_a_hit_within_reach(mesh):
     numpy.testing.assert_array_equal(tracer.occluded(origins, directions), numpy.isfinite(t))
     reach = numpy.full(RAYS, 1.0, numpy.float32)
     away = numpy.abs(t - 1.0) > 1e-6
-    numpy.testing.assert_array_equal(tracer.occluded(origins, directions, reach)[away], (t < 1.0)[away])
+    within = tracer.occluded(origins, directions, reach)
+    numpy.testing.assert_array_equal(within[away], (t < 1.0)[away])
+    numpy.testing.assert_array_equal(tracer.occluded(origins, directions, 1.0), within)
+    with pytest.raises(pn.Error, match="one for all"):
+        tracer.occluded(origins, directions, reach[:2])
 
 
 def test_one_origin_for_all():

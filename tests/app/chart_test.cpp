@@ -151,6 +151,7 @@ TEST_F(ChartTest, AFolderHoldsOneChart) {
   EXPECT_NE(refused.err.find("--restart"), std::string::npos);
   EXPECT_EQ(run_without_page(other + " --restart").exit_code, 0);
   EXPECT_EQ(results()["run"]["scene"]["name"], "two-lights");
+  EXPECT_EQ(run(other + " --projection orthographic").exit_code, 2) << "another camera's chart";
   write("d/results.json", "{\"run\":");
   EXPECT_EQ(run(other).exit_code, 2);
   write("d/results.json", "{\"run\": {}, \"points\": [{}]}");
@@ -236,6 +237,7 @@ TEST_F(ChartTest, WrongUseIsOneLine) {
                 {kSmall + "--repeat 0", 2, "--repeat"},
                 {kSmall + "--indirect 2", 2, "--indirect"},
                 {kSmall + "--stability", 2, "give a SCENE or --stability"},
+                {kSmall + "--projection panorama", 2, "draws no panorama, fisheye or distorted lens"},
                 {"-o file/d --quick", 1, "the folder cannot be made"}};
   write("file", "");
   for (const auto& wrong : kCases) {

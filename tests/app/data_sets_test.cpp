@@ -142,6 +142,7 @@ TEST_F(DataSetsTest, FramesGoToStandardOutput) {
           "--size 400x300 --mode raytrace --turntable 30 --raw - 2>early | head -c 1; "
           "cat early");
   EXPECT_NE(early.out.find("standard output cannot be written"), std::string::npos) << early.out;
+  EXPECT_EQ(std::count(early.out.begin(), early.out.end(), '\n'), 1) << early.out;
   EXPECT_EQ(run("render" + scene("two-lights") + "--raw - --skip-existing -o x.exr").exit_code, 2);
 }
 

@@ -89,6 +89,34 @@ TEST_F(MeasureTest, ASingleNumberIsSoManyFrames) {
   EXPECT_EQ(run(measure + "--frames 0").exit_code, 2);
 }
 
+// Figures are a picture's, whatever number of samples it takes.
+TEST_F(MeasureTest, SamplesAreCountedInTheirPicture) {
+  const std::string measure = "measure" + scene("cornell") +
+                              "--size 40x30 --mode raytrace --frames 8 --stats-json m.json --trace t.json ";
+  ASSERT_EQ(run(measure).exit_code, 0);
+  const nlohmann::json one = json("m.json");
+  // The noise is below 1 when it is first estimated, after 16 samples.
+  for (const auto& [options, samples] : {std::pair("--spp 4", 4), std::pair("--spp 64 --max-noise 1", 16)}) {
+    ASSERT_EQ(run(measure + options).exit_code, 0);
+    const nlohmann::json several = json("m.json");
+    EXPECT_EQ(several["frames"], one["frames"]) << options;
+    EXPECT_EQ(several["rays"]["primary"], samples * one["rays"]["primary"].get<int>()) << options;
+    EXPECT_GT(several["frame"]["ms"]["p50"], one["frame"]["ms"]["p50"]) << options;
+    int traced = 0;
+    const nlohmann::json trace = json("t.json");
+    for (const nlohmann::json& event : trace["traceEvents"]) traced += event["name"] == "raster" ? 1 : 0;
+    EXPECT_EQ(traced, samples * one["frames"].get<int>()) << options;
+  }
+}
+
+TEST_F(MeasureTest, TheProcessorIsNotBusyForLongerThanTheRun) {
+  ASSERT_EQ(
+      run("measure" + scene("windmill.glb") + "--size 64x48 --frames 5-9 --mode raytrace --stats-json m.json")
+          .exit_code,
+      0);
+  EXPECT_LE(json("m.json")["overlap"]["cpu_busy"], 1.0 + 1e-9);
+}
+
 TEST_F(MeasureTest, RefusesMoreFramesThanItKeepsFiguresOf) {
   const CommandResult result =
       run("measure" + scene("cornell") + "--size 8x6 --mode raytrace --frames 0-2000000000");

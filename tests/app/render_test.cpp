@@ -217,6 +217,19 @@ TEST_F(RenderTest, AutoNeedsNoSoftwareOpenGl) {
     EXPECT_EQ(run(draw + "--mode " + mode + " -o x.exr").err, "") << mode;
 }
 
+TEST_F(RenderTest, FiguresAreAPicturesAndATraceHasItsSamples) {
+  expect_done("render" + scene("cornell") + kSmall +
+              "--mode raytrace --spp 4 --frames 0-1 --stats-json s.json --trace t.json");
+  const nlohmann::json figures = json("s.json");
+  EXPECT_EQ(figures["frames"], 2);
+  expect_done("render" + scene("cornell") + kSmall + "--mode raytrace --stats-json one.json");
+  EXPECT_EQ(figures["rays"]["primary"], 4 * json("one.json")["rays"]["primary"].get<int>());
+  int traced = 0;
+  const nlohmann::json trace = json("t.json");
+  for (const nlohmann::json& event : trace["traceEvents"]) traced += event["name"] == "raster" ? 1 : 0;
+  EXPECT_EQ(traced, 8);
+}
+
 TEST_F(RenderTest, StatsHoldThePeakOfMemory) {
   expect_done("render" + scene("cornell") + kSmall + "--mode raytrace --stats-json small.json");
   expect_done("render" + scene("cornell") +

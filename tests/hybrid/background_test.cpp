@@ -3,6 +3,7 @@
 #include "hybrid/settings/explain.h"
 #include "hybrid/settings/resolve.h"
 #include "pinocchio/batch.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/studio.h"
 #include "tests/hybrid/plates.h"
 
@@ -132,6 +133,38 @@ TEST(BackgroundPicture, EveryWayAndTheReferenceBlurTheSame) {
         const glm::vec3 apart = glm::abs(glm::vec3(own.color[i] - truth.color[i]));
         ASSERT_LT(std::max({apart.r, apart.g, apart.b}), static_cast<float>(way.most)) << way.name;
       }
+  }
+}
+
+// Parallel rays see one place of the sky; pixels beyond a fisheye's half turn see none.
+TEST(BackgroundPicture, EveryProjectionSeesTheReferencesSky) {
+  Scene scene = under_half_a_sky();
+  Workers workers(2);
+  for (const Projection projection : {Projection::orthographic, Projection::panorama, Projection::fisheye}) {
+    scene.cameras[0].projection = projection;
+    scene.cameras[0].height = 40.0f;
+    if (projection == Projection::fisheye) scene.cameras[0].fov_deg = 360.0f;
+    Settings settings = by({{"mode", "raytrace"}});
+    settings.background = Background{};
+    const Settings resolved = resolve(settings, analyze(scene)).value();
+    Scene settled = scene;
+    settle_environment(settled, resolved);
+    const View view{scene.cameras[0], kSize};
+    const ReferencePicture truth =
+        reference_render(settled, view, 8, workers, nullptr, trace_options(resolved, view));
+    for (const Way& way : ways()) {
+      if (!scene.cameras[0].is_rasterisable() && way.settings.uses_gpu()) continue;
+      const FrameResult own = drawn(scene, way.settings, "environment", 1);
+      std::size_t sky = 0;
+      for (std::size_t i = 0; i < own.ids.pixels().size(); ++i)
+        if (own.ids[i] == kNoTriangle && truth.ids[i] == kNoTriangle) {
+          ++sky;
+          ASSERT_LT(glm::length(glm::vec3(own.color[i] - truth.color[i])),
+                    2.0f * static_cast<float>(way.most))
+              << way.name << " " << as_int(projection);
+        }
+      EXPECT_GT(sky, 1000u) << way.name;
+    }
   }
 }
 

@@ -79,6 +79,29 @@ TEST(OrthographicPictures, AreTheReferences) {
   }
 }
 
+// Cameras that OpenGL does not draw: the reference draws them too.
+TEST(RayPictures, AreTheReferences) {
+  Scene scene = scene_named("two-lights");
+  Workers workers(2);
+  for (const Projection projection : {Projection::panorama, Projection::fisheye, Projection::perspective}) {
+    Camera& camera = scene.cameras.front();
+    camera.projection = projection;
+    if (projection == Projection::fisheye) camera.fov_deg = 200.0f;
+    if (projection == Projection::perspective) camera.fov_deg = 50.0f, camera.distortion = {-0.3f, 0.1f};
+    const FrameResult cpu = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kSize});
+    const ReferencePicture truth = reference_render(scene, {camera, kSize}, 8, workers);
+    const Difference found = difference(cpu, truth.ids, truth.color);
+    EXPECT_LE(found.ids, 10) << as_int(projection);
+    int far = 0, seen = 0;  // at edges of shadows and mirrored edges
+    for (std::size_t i = 0; i < truth.ids.pixels().size(); ++i) {
+      far += glm::length(cpu.color[i] - truth.color[i]) > 0.01f ? 1 : 0;
+      seen += truth.ids[i] != kNoTriangle ? 1 : 0;
+    }
+    EXPECT_LE(far, 40) << as_int(projection);
+    EXPECT_GT(seen, 500) << as_int(projection);
+  }
+}
+
 // A picture from the rays of a camera is the camera's picture.
 TEST(RayPictures, OfACamerasRaysAreItsPicture) {
   for (const Projection projection :

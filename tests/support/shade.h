@@ -23,12 +23,13 @@ inline std::vector<ShadedLight> shaded_lights(const Scene& scene) {
   return lights;
 }
 
-// Light of the lights that reach the surface; `bits` is its mask.
-inline glm::vec3 sum_of_lights(const std::vector<ShadedLight>& lights, const SurfaceInteraction& s,
-                               unsigned bits) {
+// Light of the lights that reach the surface: those for which reaches(slot).
+template <class Reaches>
+glm::vec3 sum_of_lights(const std::vector<ShadedLight>& lights, const SurfaceInteraction& s,
+                        const Reaches& reaches) {
   glm::vec3 sum(0.0f);
   for (const ShadedLight& light : lights) {
-    if (light.slot >= 0 && !(bits >> light.slot & 1u)) continue;
+    if (light.slot >= 0 && !reaches(light.slot)) continue;
     const shared::Incident incident = shared::incident_light(light.params, light.params.position, s.p_world);
     const bool lifted = s.lift != glm::vec3(0.0f) && lifts(kUsualTerminator) &&
                         shared::faces_light_lifted(s.n_shading, s.n_vertices, incident.to_light);
@@ -39,7 +40,7 @@ inline glm::vec3 sum_of_lights(const std::vector<ShadedLight>& lights, const Sur
   return sum;
 }
 
-// Calls shade_pixel(pixel, surface, mask bits) for every pixel that sees something, on all threads.
+// Calls shade_pixel(pixel, surface, reaches) for every pixel that sees something, on all threads.
 template <class ShadePixel>
 void for_each_surface(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
                       ShadePixel shade_pixel) {
@@ -52,7 +53,7 @@ void for_each_surface(const TraceJob& job, const Image<std::uint32_t>& ids, cons
       shade_pixel(pixel,
                   surface_at(job.tracer.mesh(), ids[pixel], ray.origin, ray.direction, {},
                              Footprint::of_camera(job.view, job.options.texture_footprint)),
-                  mask.get(x, y));
+                  [&](int slot) { return (mask.get(x, y, slot / 32 * 32) >> slot % 32 & 1u) != 0; });
     });
   });
 }
@@ -64,12 +65,13 @@ inline void shade(const TraceJob& job, const Image<std::uint32_t>& ids, const Ma
   if (color.size() != ids.size()) color = Image<glm::vec4>(ids.size());
   std::fill(color.pixels().begin(), color.pixels().end(), glm::vec4(0.0f));
   const std::vector<ShadedLight> lights = shaded_lights(job.scene);
-  for_each_surface(job, ids, mask, [&](std::size_t pixel, const SurfaceInteraction& surface, unsigned bits) {
-    glm::vec3 sum = shared::phong_ambient(surface.material.shading, job.scene.ambient_light) +
-                    sum_of_lights(lights, surface, bits);
-    if (!reflection.empty()) sum += reflection[pixel];
-    color[pixel] = glm::vec4(sum, 1.0f);
-  });
+  for_each_surface(
+      job, ids, mask, [&](std::size_t pixel, const SurfaceInteraction& surface, const auto& reaches) {
+        glm::vec3 sum = shared::phong_ambient(surface.material.shading, job.scene.ambient_light) +
+                        sum_of_lights(lights, surface, reaches);
+        if (!reflection.empty()) sum += reflection[pixel];
+        color[pixel] = glm::vec4(sum, 1.0f);
+      });
 }
 
 // The part of it that the mask decides, and the reflection: added to what `light` holds, linear RGB.
@@ -77,10 +79,11 @@ inline void add_traced_light(const TraceJob& job, const Image<std::uint32_t>& id
                              const Image<glm::vec3>& reflection, Image<glm::vec3>& light) {
   std::vector<ShadedLight> casting = shaded_lights(job.scene);
   std::erase_if(casting, [](const ShadedLight& l) { return l.slot < 0; });
-  for_each_surface(job, ids, mask, [&](std::size_t pixel, const SurfaceInteraction& surface, unsigned bits) {
-    light[pixel] += sum_of_lights(casting, surface, bits);
-    if (!reflection.empty()) light[pixel] += reflection[pixel];
-  });
+  for_each_surface(job, ids, mask,
+                   [&](std::size_t pixel, const SurfaceInteraction& surface, const auto& reaches) {
+                     light[pixel] += sum_of_lights(casting, surface, reaches);
+                     if (!reflection.empty()) light[pixel] += reflection[pixel];
+                   });
 }
 
 }  // namespace pinocchio

@@ -53,6 +53,15 @@ TEST(Export, TheTimeOfAnAnimationIsSaid) {
   EXPECT_TRUE(holds(render_command(view, "mill"), " --time 0.1 "));
 }
 
+// `render` would choose its own, otherwise.
+TEST(Export, FilterSamplesAndExposureAreSaid) {
+  ExportedView view;
+  view.studio_light = true;
+  EXPECT_TRUE(holds(render_command(view, "mill"), " --spp 1 --exposure 0 "));
+  view.denoised = true;
+  EXPECT_TRUE(holds(render_command(view, "mill"), " --denoise --spp 1 "));
+}
+
 TEST(Export, WhatIsReadBesideTheSceneIsSaid) {
   ExportedView view;
   view.environment = "a sky.hdr";

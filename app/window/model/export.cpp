@@ -71,8 +71,9 @@ std::string render_command(const ExportedView& view, const std::string& name) {
   if (view.point_size > 0.0f) text += " --point-size " + shortest(view.point_size);
   if (view.line_width > 0.0f) text += " --line-width " + shortest(view.line_width);
   if (view.time_s) text += " --time " + nlohmann::json(*view.time_s).dump();
-  if (view.samples > 1) text += " --spp " + std::to_string(view.samples);
-  if (view.exposure_ev != 0.0f) text += " --exposure " + shortest(view.exposure_ev);
+  if (view.denoised && !view.settings.denoise.given) text += " --denoise";
+  if (view.samples > 1 || view.studio_light) text += " --spp " + std::to_string(view.samples);
+  if (view.exposure_ev != 0.0f || view.studio_light) text += " --exposure " + shortest(view.exposure_ev);
   if (view.tone_map != ToneMap::clip)
     text += " --tone-map " + std::string(name_of(kToneMapNames, view.tone_map));
   return text + " -o " + quoted(name + ".exr") + " --preview " + quoted(name + ".png");

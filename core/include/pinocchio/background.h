@@ -31,7 +31,7 @@ struct Background {
 
 // The texts that parse_background reads, in words.
 inline constexpr std::string_view kBackgroundTexts =
-    "environment, studio, transparent, or a colour: #rrggbb (sRGB), r,g,b (linear) or one of 20 names of CSS "
+    "environment, studio, transparent, or a colour: #rrggbb (sRGB), r,g,b (linear) or one of 21 names of CSS "
     "(white, skyblue)";
 // Nothing where the text is none of them.
 [[nodiscard]] std::optional<Background> parse_background(std::string_view text);

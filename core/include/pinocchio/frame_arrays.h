@@ -121,7 +121,8 @@ inline constexpr std::array kLayers{
              {"position", "world position, scene units", 3, false}},
     LayerRow{Layer::albedo,
              {"albedo", &FrameArrays::albedo,
-              "share of light that the surface returns: the base colour, of metals too; linear; 0 where "
+              "share of light that the surface returns: the base colour, of metals too (Phong: the matt "
+              "part); linear; 0 where "
               "nothing is "
               "hit"},
              {"Albedo", {"Albedo.R", "Albedo.G", "Albedo.B"}, kHalf},

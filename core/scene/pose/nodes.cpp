@@ -78,11 +78,27 @@ std::uint32_t object_of(const Scene& scene, std::uint32_t triangle) {
   return scene.nodes ? as_uint32(scene.nodes->node_of(triangle)) : 0u;
 }
 
-Placement::Placement(const glm::mat4& m)
-    : world_from_node_(m),
-      normals_to_world_(glm::transpose(glm::inverse(glm::mat3(m)))),
-      mirrors_(glm::determinant(glm::mat3(m)) < 0.0f),
-      identity_(m == glm::mat4(1.0f)) {}
+namespace {
+
+// The linear part, its largest entry brought near 1 by a power of two, which changes no bit of a direction.
+// Determinants of very small and very large scales would not be floats.
+glm::mat3 brought_near_one(const glm::mat4& m) {
+  glm::mat3 linear(m);
+  float largest = 0.0f;
+  for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(linear[i / 3][i % 3]));
+  if (!(largest > 0.0f) || !std::isfinite(largest)) return linear;
+  const int exponent = std::ilogb(largest);
+  for (int i = 0; i < 9; ++i) linear[i / 3][i % 3] = std::ldexp(linear[i / 3][i % 3], -exponent);
+  return linear;
+}
+
+}  // namespace
+
+Placement::Placement(const glm::mat4& m) : world_from_node_(m), identity_(m == glm::mat4(1.0f)) {
+  const glm::mat3 linear = brought_near_one(m);
+  normals_to_world_ = glm::transpose(glm::inverse(linear));
+  mirrors_ = glm::determinant(linear) < 0.0f;
+}
 
 // With GLM's products, which GCC does not inline, all vertices take twice as long. Same order, same bits.
 glm::vec3 Placement::position(const glm::vec3& p) const {

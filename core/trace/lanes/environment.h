@@ -135,7 +135,9 @@ void paint_background(const EnvironmentLight& environment, const shared::ViewPar
   static_assert(kWidth <= 16);
   alignas(64) static constexpr std::uint32_t kLane[16] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                           8, 9, 10, 11, 12, 13, 14, 15};
-  const Vec corner(view.corner), step_x(view.step_x), step_y(view.step_y);
+  // Parallel rays have one direction: their steps move the origin.
+  const Vec corner(view.corner), step_x(view.parallel ? glm::vec3(0.0f) : view.step_x),
+      step_y(view.parallel ? glm::vec3(0.0f) : view.step_y);
   for (int y = tile.lo.y; y < tile.hi.y; ++y)
     for (int x = tile.lo.x; x < tile.hi.x; x += kWidth) {
       glm::vec4* const pixels = color + (as_size(y - tile.lo.y) << kTileBits) + as_size(x - tile.lo.x);

@@ -30,6 +30,14 @@ std::optional<glm::dvec2> weights_of(const Mesh& mesh, std::uint32_t triangle, c
   return glm::dvec2(glm::dot(from_a, across), glm::dot(direction, glm::cross(from_a, ab))) / determinant;
 }
 
+// From one place in the picture to the other, pixels. A panorama's left and right edges are one: the shorter
+// way counts.
+glm::dvec2 way_between(const glm::dvec2& from, const glm::dvec2& to, const Camera& camera, int width) {
+  glm::dvec2 way = to - from;
+  if (camera.projection == Projection::panorama) way.x -= width * std::round(way.x / width);
+  return way;
+}
+
 }  // namespace
 
 void write_motion(const Mesh& mesh, const View& view, const MotionTo& other, const PixelBox& tile,
@@ -54,7 +62,8 @@ void write_motion(const Mesh& mesh, const View& view, const MotionTo& other, con
           pixel_of(view.camera, view.size, point_at(mesh, triangle, *weights));
       const std::optional<glm::dvec2> then =
           pixel_of(other.camera, view.size, point_at(there, triangle, *weights));
-      motion = here && then ? glm::vec2(*then - *here) : glm::vec2(kUnseen);
+      motion =
+          here && then ? glm::vec2(way_between(*here, *then, other.camera, view.size.x)) : glm::vec2(kUnseen);
     }
 }
 

@@ -112,7 +112,7 @@ template <class Test, class Found, std::size_t... kIndex>
       });
     };
     if (tree.triangles) {
-      add_hits(StoredIn(Test::stored(*tree.triangles)));
+      add_hits(PosedIn(Test::stored(*tree.triangles)));
     } else if constexpr (std::is_same_v<Test, FilteredTest>) {  // copies share trees with no other test
       add_hits(MadeWhenTested(scene, tree.first_triangle));
     }

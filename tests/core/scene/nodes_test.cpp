@@ -95,6 +95,19 @@ TEST(Posed, MirroredNodesTurnTheirTriangles) {
   EXPECT_EQ(assembled(from_mirrored).value().mesh->triangles[0], glm::uvec3(0, 2, 1));
 }
 
+// Also where a determinant is no float.
+TEST(Posed, NormalsAndSidesAreKeptAtAnyScale) {
+  const glm::vec3 normal = glm::normalize(glm::vec3(1, 2, 3));
+  const glm::mat4 turned = glm::rotate(glm::mat4(1.0f), 0.5f, glm::vec3(0, 1, 0));
+  const glm::vec3 expected = Placement(turned).normal(normal);
+  for (const float scale : {1e-18f, 1e-13f, 1e-3f, 3.0f, 1e8f, 1e13f}) {
+    const Placement placement(glm::scale(turned, glm::vec3(scale)));
+    EXPECT_LT(glm::distance(placement.normal(normal), expected), 1e-6f) << scale;
+    EXPECT_FALSE(placement.mirrors()) << scale;
+    EXPECT_TRUE(Placement(glm::scale(turned, {-scale, scale, scale})).mirrors()) << scale;
+  }
+}
+
 TEST(Posed, SaysWhatItCannotMove) {
   const Scene soup = one_triangle();
   const std::array<NodeTransform, 1> none{NodeTransform{3, glm::mat4(1.0f)}};

@@ -159,6 +159,38 @@ TEST(Cameras, WhatALensDoesNotShowHasNoRay) {
   EXPECT_NEAR(glm::length(rays.at(50, 2).direction), 1.0f, 1e-6f);
 }
 
+// A lens that bends more and more and then back: at every place up to where it turns back, although Newton's
+// method from the place itself would lead away.
+TEST(Cameras, LensesAreInvertedUpToWhereTheyTurnBack) {
+  for (const LensCoefficients& k :
+       {LensCoefficients{0.3f, -0.1f}, LensCoefficients{0.0948f, -0.0337f, 0.01f, -0.0023f},
+        LensCoefficients{0.17f, -0.08f, 0.02f, -0.003f}, LensCoefficients{0.35f, -0.18f, 0.05f, -0.006f}}) {
+    double farthest = 0.0, angle = 0.0;
+    for (; fisheye_distance(k, angle) >= farthest; angle += 1e-3) {
+      farthest = fisheye_distance(k, angle);
+      const std::optional<double> found = fisheye_angle(k, farthest);
+      ASSERT_TRUE(found) << k[0] << " at " << angle;
+      ASSERT_NEAR(fisheye_distance(k, *found), farthest, 1e-9) << angle;
+      if (farthest > 0.0) {
+        ASSERT_LT(*found, angle + 1e-3);
+      }
+    }
+    EXPECT_GT(angle, 1.5);
+    EXPECT_FALSE(fisheye_angle(k, farthest + 0.01));
+  }
+  const LensCoefficients barrel{0.3f, -0.1f};
+  double farthest = 0.0, at = 0.0;
+  for (; distorted(barrel, {at, 0.0}).x >= farthest; at += 1e-2) {
+    farthest = distorted(barrel, {at, 0.0}).x;
+    if (distorted(barrel, {at + 1e-2, 0.0}).x < farthest) break;  // beside the turn, digits are lost
+    const std::optional<glm::dvec2> found = undistorted(barrel, {farthest, 0.0});
+    ASSERT_TRUE(found) << at;
+    ASSERT_NEAR(found->x, at, 1e-6);
+  }
+  EXPECT_GT(at, 1.3);
+  EXPECT_FALSE(undistorted(barrel, {farthest + 0.01, 0.0}));
+}
+
 TEST(Cameras, TheCallersRaysAreTheirPixels) {
   auto given = std::make_shared<PixelRays>();
   for (int i = 0; i < 12; ++i) {

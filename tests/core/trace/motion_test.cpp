@@ -218,6 +218,29 @@ TEST(Motion, EveryAnimatedSceneIsHitAsOneTreeIs) {
   EXPECT_GT(animated, 0);
 }
 
+// A triangle without area is in no tree built for one pose: it must not be hit in one that is kept, either.
+TEST(Motion, TrianglesWithoutAreaAreNeverHit) {
+  Random random(4);
+  MeshData mesh = *random_soup(200, 1.0f, 9).mesh;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 2) {  // corners on a line along z
+    const glm::uvec3& c = mesh.triangles[t];
+    for (const std::uint32_t corner : {c.y, c.z}) {
+      mesh.positions[corner] = mesh.positions[c.x];
+      mesh.positions[corner].z += random.between(0.1f, 1.0f);
+    }
+  }
+  const Scene soup{std::move(mesh)};
+  const std::array parts{Part{"soup", soup}};
+  const Scene scene = assembled(parts).value();
+  Chains chains;
+  for (int i = 0; i < 6; ++i) {
+    const glm::mat4 shift = glm::translate(glm::mat4(1.0f), glm::vec3(0.25f * static_cast<float>(i), 0, 0));
+    chains.check(posed(scene, std::array{NodeTransform{0, shift}}).value(), 4000,
+                 static_cast<std::uint64_t>(i), "flat");
+  }
+  EXPECT_EQ(chains.last().trees().moving.size(), 1u);
+}
+
 // What stands still keeps its tree, what moves rigidly its nodes; what is put in its place once gets none.
 TEST(Motion, KeepsTheTreesOfWhatKeepsItsShape) {
   const Scene scene = robot(5, 7);
