@@ -42,8 +42,8 @@ BudgetTrial::BudgetTrial(Engine& engine, const Settings& exact, const BudgetOpti
       frame_(std::move(frame)),
       pictures_(engine, {[this](Frame& picture) { picture.read_color(color_); }, {}}, progress),
       times_(engine,
-             {[this](Frame& frame) {
-                if (mean_) mean_->add(frame);
+             {[this](Frame& sample) {
+                if (mean_) mean_->add(sample);
               },
               {}},
              progress) {
