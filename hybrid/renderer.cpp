@@ -236,7 +236,7 @@ FrameSlot& Renderer::Loop::begin(FrameRequest&& request) {
     (void)engine_.gpu();
     if (gl::context_lost())
       throw gl::ContextLostError("the GPU was reset and its OpenGL context is lost; start again");
-    if (frames_on_gpu_++ % kFramesBetweenCalibrations == 0) clock_.calibrate();
+    if (frames_on_gpu_++ % kFramesBetweenCalibrations == 0 || clock_.is_old()) clock_.calibrate();
   }
   generation_ = generation();
   frame.begin(std::move(request), next_number_++, progress_);

@@ -18,9 +18,9 @@ uniform samplerBuffer lights;               // kLightTexels a light
 const int kMaterialTexels = 7;
 const int kLightTexels = 6;
 
-vec3 fetch_vec3(samplerBuffer buffer, uint i) {
+vec3 fetch_vec3(samplerBuffer from, uint i) {
   int first = 3 * int(i);
-  return vec3(texelFetch(buffer, first).r, texelFetch(buffer, first + 1).r, texelFetch(buffer, first + 2).r);
+  return vec3(texelFetch(from, first).r, texelFetch(from, first + 1).r, texelFetch(from, first + 2).r);
 }
 
 uvec3 fetch_corners(uint triangle) {
@@ -41,8 +41,8 @@ vec3 linear_from_srgb(vec3 c) {
 // Where the material's maps are (map_fetch.glsl); -1: it has none.
 int fetch_maps(int material) { return int(texelFetch(materials, kMaterialTexels * material + 1).w) - 1; }
 
-Layers fetch_layers(samplerBuffer buffer, int first) {
-  return layers_of(texelFetch(buffer, first), texelFetch(buffer, first + 1));
+Layers fetch_layers(samplerBuffer from, int first) {
+  return layers_of(texelFetch(from, first), texelFetch(from, first + 1));
 }
 
 // A material without its maps.

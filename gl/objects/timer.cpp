@@ -21,8 +21,21 @@ double steady_now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+std::int64_t ns_between(GLuint64 from, GLuint64 to, int bits) {
+  const int unused = bits > 0 && bits < 64 ? 64 - bits : 0;
+  return static_cast<std::int64_t>((to - from) << unused) >> unused;
+}
+
+bool GpuClock::is_old() const {
+  constexpr double kOld_s = 10.0;
+  return steady_now_s() - cpu_s_ > kOld_s;
+}
+
 void GpuClock::calibrate() {
   constexpr int kTries = 4;
+  GLint bits = 0;
+  glGetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
+  bits_ = bits;
   double tightest_s = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kTries; ++i) {
     GLint64 gpu_ns = 0;
@@ -31,7 +44,8 @@ void GpuClock::calibrate() {
     const double after_s = steady_now_s();
     if (after_s - before_s >= tightest_s) continue;
     tightest_s = after_s - before_s;
-    offset_s_ = 0.5 * (before_s + after_s) - double(gpu_ns) * 1e-9;
+    gpu_ns_ = static_cast<GLuint64>(gpu_ns);
+    cpu_s_ = 0.5 * (before_s + after_s);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "gl/context/handle.h"
 
@@ -16,15 +17,26 @@ struct GpuSpan {
   double begin_s = 0.0, end_s = 0.0;
 };
 
-// Converts GL_TIMESTAMP to the CPU's steady clock. The two may drift: calibrate again from time to time.
+// The nanoseconds from one time stamp to another of a clock that has so many bits, of which the highest may
+// have overflowed in between. Negative: `to` is earlier.
+[[nodiscard]] std::int64_t ns_between(GLuint64 from, GLuint64 to, int bits);
+
+// Converts GL_TIMESTAMP to the CPU's steady clock. The two may drift, and the GPU's may begin again: with 36
+// bits (Intel's) after 69 s.
 class GpuClock {
  public:
   // Reads the GPU's clock between two readings of the CPU's, and keeps the tightest of a few tries.
   void calibrate();
-  [[nodiscard]] double to_cpu_s(GLuint64 gpu_ns) const { return double(gpu_ns) * 1e-9 + offset_s_; }
+  // Whether the last calibration is too long ago.
+  [[nodiscard]] bool is_old() const;
+  [[nodiscard]] double to_cpu_s(GLuint64 gpu_ns) const {
+    return cpu_s_ + static_cast<double>(ns_between(gpu_ns_, gpu_ns, bits_)) * 1e-9;
+  }
 
  private:
-  double offset_s_ = 0.0;
+  GLuint64 gpu_ns_ = 0;  // at cpu_s_
+  double cpu_s_ = 0.0;
+  int bits_ = 64;
 };
 
 // Time stamps around a piece of GPU work.

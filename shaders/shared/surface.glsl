@@ -3,7 +3,7 @@
 
 // Barycentric weights (of a, b, c) of the point where the ray meets the triangle's plane, moved to the
 // nearest edge where rasteriser and ray disagree by a hair: the point is on the triangle, whatever the
-// two think of a silhouette pixel. Möller and Trumbore 1997, without the rejection.
+// two think of a silhouette pixel. Moeller and Trumbore 1997, without the rejection.
 SHARED vec3 barycentric_of(vec3 origin, vec3 direction, vec3 a, vec3 ab, vec3 ac) {
   vec3 from_a = origin - a;
   vec3 p = cross(direction, ac);

@@ -17,6 +17,15 @@
 namespace pinocchio {
 namespace {
 
+// A clock of 36 bits that has begun again, and one of all bits.
+TEST(GpuClock, MayBeginAgain) {
+  constexpr GLuint64 kPeriod = GLuint64{1} << 36;
+  EXPECT_EQ(gl::ns_between(kPeriod - 5, 7, 36), 12);
+  EXPECT_EQ(gl::ns_between(7, kPeriod - 5, 36), -12);
+  EXPECT_EQ(gl::ns_between(100, 40, 64), -60);
+  EXPECT_EQ(gl::ns_between(40, GLuint64{1} << 40, 0), (std::int64_t{1} << 40) - 40);
+}
+
 using TransferTest = GlTest;
 INSTANTIATE_TEST_SUITE_P(Backends, TransferTest, kBackends, backend_name);
 
