@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "app/cli/errors.h"
+#include "pinocchio/conversion.h"
+
 namespace pinocchio::app {
 namespace {
 
@@ -13,6 +16,14 @@ void add_time(Span& to, const Span& more) {
 }
 
 }  // namespace
+
+void check_records(std::size_t pictures, const Settings& settings, const std::string& who) {
+  constexpr std::size_t kMost = 100'000;
+  const std::size_t frames = pictures * as_size(settings.spp.value);
+  if (frames > kMost)
+    throw Exit(kUsage, std::to_string(frames) + " frames are more than " + who + " keeps figures of (" +
+                           std::to_string(kMost) + "); give fewer --frames or a lower --spp");
+}
 
 void PictureRecords::add(const FrameRecord& frame) {
   if (added_++ == 0) {

@@ -2,14 +2,15 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <utility>
 
 #include "pinocchio/frame.h"
 
 namespace pinocchio::app {
 
-// The most records that a run keeps, some 260 bytes each.
-inline constexpr std::size_t kMostRecords = 100'000;
+// Ends the verb with kUsage where a run has more samples than `who` keeps records of, some 260 bytes each.
+void check_records(std::size_t pictures, const Settings& settings, const std::string& who);
 
 // Sums the records of a picture's samples, each a frame, into one record: counts and times add up, and the
 // picture lasts from the first one's begin to the last one's end.

@@ -68,7 +68,7 @@ void BudgetTrial::step() {
 // The first frame is not timed: it compiles shaders and allocates buffers.
 double BudgetTrial::time_ms(Settings settings) {
   settings.reuse = false;  // else the frames of a still camera would take no time
-  if (settings.max_noise > 0.0f) mean_.emplace(settings, [](FrameResult&&) {});
+  if (is_adaptive(settings)) mean_.emplace(settings, [](FrameResult&&) {});
   SampleMean* const mean = mean_ ? &*mean_ : nullptr;
   submit_samples(times_, frame_(settings, 0), mean);
   times_.drain();

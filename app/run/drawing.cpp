@@ -23,6 +23,12 @@ Settings with_usual(Settings settings, Exchange usual) {
 
 }  // namespace
 
+void require_rasterisable(const Camera& camera, const std::string& what) {
+  if (!camera.is_rasterisable())
+    throw Exit(kUsage, what + " needs OpenGL, which cannot draw " + kDrawnByRaysAlone +
+                           "; give another --projection or --camera");
+}
+
 Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool keeps_mask, bool any_settings,
                  const std::optional<Camera>& only)
     : options_(options),
@@ -45,7 +51,7 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
     Settings given = with_usual(options.settings, usual), drawn = given;
     if (needs_rays_) draw_on_cpu(drawn);
     if (!broken_rule(given) && broken_rule(drawn))
-      error.what += " (the CPU alone draws panoramas, fisheyes and distorted lenses)";
+      error.what += std::string(" (the CPU alone draws ") + kDrawnByRaysAlone + ")";
     throw Exit(options.plan_file.empty() && !broken_rule(drawn) ? kBadScene : kUsage, error.message());
   }
   settings_ = *resolved;

@@ -10,6 +10,10 @@
 
 namespace pinocchio::app {
 
+inline constexpr const char* kDrawnByRaysAlone = "a panorama, a fisheye or a distorted lens";
+// Ends the verb with kUsage for a camera that OpenGL cannot draw. `what` needs OpenGL.
+void require_rasterisable(const Camera& camera, const std::string& what);
+
 // The Engine, the scene and the resolved settings of a verb that draws.
 class Drawing {
  public:

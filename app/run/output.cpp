@@ -21,13 +21,8 @@
 namespace pinocchio::app {
 namespace {
 
-// Checks that a file's name ends so.
 auto ends_in(const char* extension) {
-  return [extension](const std::string& file) {
-    return std::filesystem::path(file).extension() == extension
-               ? std::string()
-               : "'" + file + "' does not end in " + extension;
-  };
+  return [extension](const std::string& file) { return ending_error(file, extension); };
 }
 
 // ASCII alone, because PNG's text is Latin-1 and file names may not be UTF-8.
@@ -104,6 +99,11 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
 
 std::string json_text(const nlohmann::json& json) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string ending_error(const std::string& file, const std::string& extension) {
+  if (std::filesystem::path(file).extension() == extension) return {};
+  return "'" + file + "' does not end in " + extension;
 }
 
 void write_json(const std::filesystem::path& file, const nlohmann::json& json) {

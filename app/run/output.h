@@ -72,6 +72,9 @@ void add_output_options(CLI::App& verb, OutputOptions& options);
 [[nodiscard]] std::string json_text(const nlohmann::json& json);
 void write_json(const std::filesystem::path& file, const nlohmann::json& json);
 
+// What is wrong with the file's name; empty: it has the extension.
+[[nodiscard]] std::string ending_error(const std::string& file, const std::string& extension);
+
 // Makes the folder and those above it that are missing. Ends the verb with kFailed where it cannot.
 void make_folder(const std::filesystem::path& folder);
 

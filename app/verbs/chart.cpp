@@ -71,10 +71,7 @@ class ChartRun {
     if (!options_.size_given)
       draw.size = is_cut_ ? kQuickSampledSize : options_.quick ? kQuickSize : kDefaultSize;
     const std::vector<View> views = motion(scene);
-    if (!views.front().is_rasterisable())
-      throw Exit(kUsage,
-                 "chart measures beside pictures of OpenGL alone, which draws no panorama, fisheye or "
-                 "distorted lens; give another --projection or --camera");
+    require_rasterisable(views.front().camera, "chart");
     // An animated scene is charted at one time.
     scene = value_or_exit(at_time(scene, *options_.animation.time_s), kBadScene);
     scene.animation = nullptr;

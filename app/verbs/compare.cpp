@@ -123,9 +123,8 @@ void check_files(const Options& options, const std::vector<PicturePair>& pairs) 
                              ", whose pictures are compared; choose another folder");
   if (several && !options.heatmap.empty()) make_folder(options.heatmap);
   if (!several && !options.heatmap.empty()) {
-    if (std::filesystem::path(options.heatmap).extension() != ".png")
-      throw Exit(kUsage,
-                 "--heatmap " + options.heatmap + ": heat maps are PNG files; give a name that ends in .png");
+    if (const std::string error = ending_error(options.heatmap, ".png"); !error.empty())
+      throw Exit(kUsage, "--heatmap: " + error);
     check_writable(options.heatmap);
   }
   if (!options.junit.empty()) check_writable(options.junit);

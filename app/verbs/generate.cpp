@@ -22,10 +22,7 @@ struct GenerateOptions {
 
 int generate(const GenerateOptions& options) {
   const std::string file = options.file.empty() ? options.name + ".gltf" : options.file;
-  const SceneFormat* const format = find_scene_format(file);
-  if (!format || !format->save)
-    throw Exit(kUsage, file + ": scenes are written as " + scene_extensions(FormatUse::written) +
-                           "; give a name with one of these extensions");
+  if (const auto error = save_error(file)) throw Exit(kUsage, error->message());
   ProceduralOptions procedural = options.procedural;
   procedural.progress = &run_progress();
   const Scene scene = value_or_exit(make_procedural(options.name, procedural), kUsage);

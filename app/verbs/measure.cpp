@@ -68,7 +68,7 @@ void draw(Drawing& drawing, const MeasureOptions& options, const CameraFrames& f
     progress.step();
   });
   SampleMean mean(run.settings, [](FrameResult&&) {});
-  const bool adaptive = run.settings.max_noise > 0.0f && run.settings.spp > 1;
+  const bool adaptive = is_adaptive(run.settings);
   Renderer renderer(drawing.engine(),
                     {adaptive ? [&](Frame& frame) { mean.add(frame); } : std::function<void(Frame&)>(),
                      [&](const FrameRecord& record) {
@@ -267,13 +267,8 @@ int measure(MeasureOptions& options) {
   if (options.animation.turntable == 0 && options.animation.path.empty())
     options.animation.turntable = kDefaultFrames;
   const CameraFrames frames(options.animation, options.draw, scene);
-  if (const std::size_t all = frames.size() * as_size(options.draw.settings.spp.value); all > kMostRecords)
-    throw Exit(kUsage, std::to_string(all) + " frames are more than measure keeps figures of (" +
-                           std::to_string(kMostRecords) + "); give fewer --frames or a lower --spp");
-  if (options.compare && !frames[0].camera.is_rasterisable())
-    throw Exit(kUsage,
-               "--compare measures what OpenGL draws, and it draws no panorama, fisheye or distorted lens; "
-               "give another --projection or --camera");
+  check_records(frames.size(), options.draw.settings, "measure");
+  if (options.compare) require_rasterisable(frames[0].camera, "--compare");
   check_apart(input_files(options.draw, options.animation, scene),
               {{"--stats-json", options.stats_json}, {"--trace", options.trace}});
   for (const std::string& file : {options.stats_json, options.trace})

@@ -150,10 +150,7 @@ class RenderRun {
                  "--skip-existing: a reprojected frame depends on earlier frames; use --exchange pipelined");
     for (const std::string& file : {options_.stats_json, options_.trace})
       if (!file.empty()) check_writable(file);
-    if (const std::size_t all = frames_->size() * as_size(options_.draw.settings.spp.value);
-        !options_.trace.empty() && all > kMostRecords)
-      throw Exit(kUsage, std::to_string(all) + " samples are more than --trace keeps (" +
-                             std::to_string(kMostRecords) + "); give fewer --frames or a lower --spp");
+    if (!options_.trace.empty()) check_records(frames_->size(), options_.draw.settings, "--trace");
   }
 
   [[nodiscard]] FrameHeader header_of(const CameraFrame& frame, std::size_t place) const {
@@ -223,7 +220,7 @@ class RenderRun {
       delivering_s_ = 0.0;
       const Settings& settings = budget_ ? budget_->settings() : drawing.settings();
       submit_samples(renderer, drawing.request(settings, *frame, find_next_frame(drawing)), &mean);
-      if (settings.max_noise > 0.0f) pictures.end();  // it may have fewer samples
+      if (is_adaptive(settings)) pictures.end();  // it may have fewer samples
       if (budget_) budget_->note(1e3 * (now_s() - begin_s - delivering_s_));
     }
     renderer.drain();
@@ -263,7 +260,7 @@ class RenderRun {
             other.camera};
   }
 
-  // Of a picture. Records are kept only for --stats-json: ranges may be long.
+  // Counts a picture. Its record is kept only for --stats-json, as ranges may be long.
   void keep(const FrameRecord& record) {
     ++recorded_;
     for (std::size_t i = 0; i < kStageNames.size(); ++i) stage_ms_[i] += record.stages[i].ms();

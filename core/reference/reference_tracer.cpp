@@ -35,43 +35,17 @@ ReferenceTracer::Cone ReferenceTracer::cone_after(const ReferenceRay& ray, const
   return {ray.width + ray.angle * hit.t * glm::length(ray.direction), ray.angle, ray.of_camera};
 }
 
-ReferenceTracer::PixelRay ReferenceTracer::pixel_ray(const ReferenceCamera& camera, int x, int y) const {
-  const shared::ViewParams& view = camera.params;
-  const double side = as_double(options_.texture_footprint);
-  PixelRay of{reference_pixel_ray(view, x, y), side * glm::dvec3(view.step_x),
-              side * glm::dvec3(view.step_y)};
-  if (camera.model) {
-    const Ray ray = camera.model->ray(x, y);
-    const Footprint footprint = camera.model->footprint({x, y}, options_.texture_footprint);
-    of = {{glm::dvec3(ray.origin), glm::dvec3(ray.direction)},
-          glm::dvec3(footprint.step_x),
-          glm::dvec3(footprint.step_y)};
-    of.ray.angle = as_double(footprint.angle);
-  } else {
-    // The angle between parallel rays is 0, which would mean that nothing is averaged.
-    const double height = glm::length(of.step_y);
-    of.ray.angle = view.parallel ? std::min(height, 1e-30) : height;
-    if (view.parallel) of.ray.width = height;
-  }
-  of.ray.of_camera = true;
-  return of;
-}
-
 ReferenceTracer::Pixel ReferenceTracer::pixel(const ReferenceCamera& camera, int x, int y, int depth) const {
-  const PixelRay of = pixel_ray(camera, x, y);
+  const ReferenceCamera::PixelRay of = camera.pixel(x, y, options_.texture_footprint);
   const ReferenceRay& ray = of.ray;
-  const bool sees = ray.direction != glm::dvec3(0.0);
-  const ReferenceHit hit = sees ? closest_hit(ray) : ReferenceHit{};
+  const ReferenceHit hit = of.sees() ? closest_hit(ray) : ReferenceHit{};
   Pixel pixel;
   pixel.triangle = hit.triangle;
   if (!hit.valid()) {
     pixel.color = glm::vec4(behind(ray));
     return pixel;
   }
-  const double way_of_steps = !camera.model && camera.params.parallel ? 1.0 : hit.t;
-  ReferenceSpread spread;
-  if (ray.angle > 0.0) spread = {ray.direction, way_of_steps * of.step_x, way_of_steps * of.step_y};
-  const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread);
+  const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, of.spread_at(hit.t));
   Media media = media_at(nullptr, hit, surface);
   media.here = medium_of_eye(camera);
   if (media.here && surface.material.ior == 1.0 && !scene_.mesh->material_of(hit.triangle).attenuates())
@@ -378,12 +352,11 @@ ReferenceTracer::Arrival ReferenceTracer::arriving(const ReferenceRay& ray, cons
 // Three rays from the eye: where it is inside a body, they meet its surface from behind once more than from
 // in front. Two have to agree.
 const Material* ReferenceTracer::medium_of_eye(const ReferenceCamera& camera) const {
-  const shared::ViewParams& view = camera.params;
-  const bool one_eye = camera.model ? camera.model->has_one_eye() : !view.parallel;
-  if (!absorbs_ || !one_eye) return nullptr;
+  const std::optional<glm::dvec3> eye = camera.eye();
+  if (!absorbs_ || !eye) return nullptr;
   const auto along = [&](const glm::dvec3& direction) -> const Material* {
     std::vector<std::pair<const Material*, int>> depths;
-    ReferenceRay ray{glm::dvec3(view.eye), direction};
+    ReferenceRay ray{*eye, direction};
     for (int surfaces = 0; surfaces < 4096; ++surfaces) {
       const ReferenceHit hit = tree_.closest_hit(ray);
       if (!hit.valid()) return nullptr;
@@ -401,14 +374,6 @@ const Material* ReferenceTracer::medium_of_eye(const ReferenceCamera& camera) co
   const Material *const a = along({0.31, 0.87, 0.41}), *const b = along({-0.77, 0.13, 0.53}),
                         *const c = along({0.19, -0.59, -0.71});
   return a == b || a == c ? a : b == c ? b : nullptr;
-}
-
-ReferenceRay reference_pixel_ray(const shared::ViewParams& view, int x, int y) {
-  const glm::dvec2 at = glm::dvec2(view.first) + glm::dvec2(x, y);
-  const glm::dvec3 eye(view.eye), corner(view.corner),
-      to_pixel = at.x * glm::dvec3(view.step_x) + at.y * glm::dvec3(view.step_y);
-  if (view.parallel) return {eye + to_pixel, corner};
-  return {eye, corner + to_pixel};
 }
 
 }  // namespace pinocchio

@@ -5,24 +5,15 @@
 #include <optional>
 #include <vector>
 
+#include "core/reference/reference_camera.h"
 #include "core/reference/reference_environment.h"
 #include "core/reference/reference_surface.h"
 #include "core/reference/reference_tree.h"
 #include "core/trace/rays/trace_options.h"
-#include "core/trace/view/ray_model.h"
-#include "core/trace/view/view_params.h"
 #include "pinocchio/conversion.h"
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
-
-// What the rays of a picture's pixels are made of.
-struct ReferenceCamera {
-  explicit ReferenceCamera(const View& view) : params(view_params(view)), model(RayModel::of(view)) {}
-
-  shared::ViewParams params;
-  std::optional<RayModel> model;  // for views that no rasteriser draws; none: `params` alone
-};
 
 // Draws the reference pixel by pixel. Light along rays: I = Ia + sum over lights of (Id + Is) + Ir(R) + It(T)
 // + emission (Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980). Every bounce
@@ -78,12 +69,6 @@ class ReferenceTracer {
     double width, angle;
     bool of_camera;
   };
-  // A pixel's ray, and the sides of the sample's share of the pixel: at t = 1, of parallel rays at any t.
-  struct PixelRay {
-    ReferenceRay ray;
-    glm::dvec3 step_x, step_y;
-  };
-  [[nodiscard]] PixelRay pixel_ray(const ReferenceCamera& camera, int x, int y) const;
   [[nodiscard]] static Cone cone_after(const ReferenceRay& ray, const ReferenceHit& hit);
   // A glossy surface has lobe_side squared mirrored rays, and fewer at the hits of these rays.
   static constexpr int kLobeSide = 16;
@@ -125,8 +110,5 @@ class ReferenceTracer {
   bool lobes_ = false;    // glossy lobes are sampled; else mirrors are sharp
   bool absorbs_ = false;  // some material absorbs light
 };
-
-// The ray of the pixel (x, y). Its t is z_eye.
-[[nodiscard]] ReferenceRay reference_pixel_ray(const shared::ViewParams& view, int x, int y);
 
 }  // namespace pinocchio

@@ -32,6 +32,13 @@ const SceneFormat* find_scene_format(const std::filesystem::path& file) {
   return nullptr;
 }
 
+std::optional<InputError> save_error(const std::filesystem::path& file) {
+  const SceneFormat* const format = find_scene_format(file);
+  if (format && format->save) return std::nullopt;
+  return InputError{file.string(), 0, "is not of a format that can be written",
+                    "choose " + scene_extensions(FormatUse::written)};
+}
+
 std::string scene_extensions(FormatUse use) {
   std::vector<std::string> all;
   for (const SceneFormat& format : scene_formats())

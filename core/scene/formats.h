@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,6 +35,8 @@ inline constexpr const char* kNotDrawn = "they are not drawn";
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& file);
 // The format of the file's extension. Null: there is none.
 [[nodiscard]] const SceneFormat* find_scene_format(const std::filesystem::path& file);
+// Why no scene is written to such a file; none: it can be.
+[[nodiscard]] std::optional<InputError> save_error(const std::filesystem::path& file);
 
 // The extensions of all formats, or of those that are written: ".gltf, .glb or .obj".
 enum class FormatUse { read, written };

@@ -7,14 +7,11 @@ namespace pinocchio {
 
 void save_scene(const Scene& scene, const std::filesystem::path& file, Progress* progress,
                 Warnings* warnings) {
-  const SceneFormat* const format = find_scene_format(file);
-  if (!format || !format->save)
-    throw EnvironmentError(file.string() + ": is not of a format that can be written; choose " +
-                           scene_extensions(FormatUse::written));
+  if (const auto error = save_error(file)) throw EnvironmentError(error->message());
   if (scene.environment && warnings)
     warnings->add({file.string(), "", "the environment is left out",
                    "the background is black; load it with --environment"});
-  format->save(scene, file, progress, warnings);
+  find_scene_format(file)->save(scene, file, progress, warnings);
 }
 
 }  // namespace pinocchio

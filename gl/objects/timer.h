@@ -27,7 +27,7 @@ class GpuClock {
  public:
   // Reads the GPU's clock between two readings of the CPU's, and keeps the tightest of a few tries.
   void calibrate();
-  // Whether the last calibration is too long ago.
+  // True if the last calibration was more than 10 s ago.
   [[nodiscard]] bool is_old() const;
   [[nodiscard]] double to_cpu_s(GLuint64 gpu_ns) const {
     return cpu_s_ + static_cast<double>(ns_between(gpu_ns_, gpu_ns, bits_)) * 1e-9;

@@ -99,7 +99,7 @@ void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean) 
     if (request.left_out && std::ranges::count(*request.left_out, 0) == 0) break;
     renderer.submit(request);
   }
-  if (!mean || !mean->is_adaptive()) return;
+  if (!mean || !mean->is_adaptive_) return;
   renderer.drain();  // frames in flight are samples of this picture
   if (mean->samples_ > 0) mean->finish();
 }
@@ -108,7 +108,7 @@ void SampleMean::add(Frame& frame) {
   if (samples_ == 0) sum_ = frame.read();
   const Image<glm::vec4>& sample = samples_ == 0 ? sum_.color : frame.color(sample_);
   if (frame.request().settings.average_layers && spp_ > 1) add_surfaces(frame);
-  if (is_adaptive()) {
+  if (is_adaptive_) {
     add_tiles(frame.request(), sample);
   } else if (samples_ > 0) {
     for (std::size_t i = 0; i < sample.pixels().size(); ++i) sum_.color[i] += sample[i];
@@ -170,7 +170,7 @@ void SampleMean::check_tile(std::size_t tile) {
 void SampleMean::finish() {
   const TileGrid grid(sum_.color.size());
   for (std::size_t i = 0; i < grid.count() && samples_ > 1; ++i) {
-    const auto share = as_float(is_adaptive() ? tile_samples_[i] : samples_);
+    const auto share = as_float(is_adaptive_ ? tile_samples_[i] : samples_);
     TileGrid::for_each_pixel(grid.tile(i), [&](int x, int y) { sum_.color.at(x, y) /= share; });
   }
   for (Image<glm::vec3>* const mean : {&sum_.mean_normal, &sum_.mean_albedo})

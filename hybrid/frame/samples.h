@@ -33,6 +33,11 @@ void settle_environment(Scene& scene, const Settings& settings);
 
 class SampleMean;
 
+// True if a picture may take fewer samples than spp (max_noise).
+[[nodiscard]] inline bool is_adaptive(const Settings& settings) {
+  return settings.max_noise > 0.0f && settings.spp > 1;
+}
+
 // Submits a frame for each sample a pixel: the first at the pixels' centres, the others spread over them.
 // With max_noise and the mean that the frames go to, it ends as soon as all tiles are finished.
 void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean = nullptr);
@@ -44,19 +49,22 @@ void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean =
 class SampleMean {
  public:
   SampleMean(const Settings& settings, std::function<void(FrameResult&&)> done)
-      : spp_(settings.spp), max_noise_(settings.max_noise), done_(std::move(done)) {}
+      : spp_(settings.spp),
+        is_adaptive_(pinocchio::is_adaptive(settings)),
+        max_noise_(settings.max_noise),
+        done_(std::move(done)) {}
 
   void add(Frame& frame);
 
  private:
   friend void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean);
-  [[nodiscard]] bool is_adaptive() const { return max_noise_ > 0.0f && spp_ > 1; }
   void add_surfaces(const Frame& frame);
   void add_tiles(const FrameRequest& request, const Image<glm::vec4>& picture);
   void check_tile(std::size_t tile);
   void finish();
 
   int spp_;
+  bool is_adaptive_;
   float max_noise_;
   std::function<void(FrameResult&&)> done_;
   FrameResult sum_;  // its colour is the sum of samples_ samples

@@ -237,7 +237,7 @@ TEST_F(ChartTest, WrongUseIsOneLine) {
                 {kSmall + "--repeat 0", 2, "--repeat"},
                 {kSmall + "--indirect 2", 2, "--indirect"},
                 {kSmall + "--stability", 2, "give a SCENE or --stability"},
-                {kSmall + "--projection panorama", 2, "draws no panorama, fisheye or distorted lens"},
+                {kSmall + "--projection panorama", 2, "cannot draw a panorama"},
                 {"-o file/d --quick", 1, "the folder cannot be made"}};
   write("file", "");
   for (const auto& wrong : kCases) {

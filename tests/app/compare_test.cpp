@@ -165,7 +165,7 @@ TEST_F(CompareVerbTest, Usage) {
   expect_error("a.exr", 2, "B is required");
   for (const char* limit : {"rmse", "speed=1", "rmse=", "rmse=x", "rmse=nan", "rmse=-1", "=1"})
     expect_error(std::string("a.exr b.exr --max-error ") + limit, 2, limit);
-  expect_error("a.exr b.exr --heatmap map.jpg", 2, "give a name that ends in .png");
+  expect_error("a.exr b.exr --heatmap map.jpg", 2, "does not end in .png");
   for (const char* ppd : {"0", "nan", "1e9", "x"})
     expect_error(std::string("a.exr b.exr --ppd ") + ppd, 2, "--ppd");
 }

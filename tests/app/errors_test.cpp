@@ -101,10 +101,9 @@ TEST_F(ErrorsTest, Usage) {
   expect_error(render, 2, "nothing to write");
   expect_error("render -o x.exr", 2, "SCENE");
   expect_error("generate nothing", 2, "two-lights");
-  expect_error("generate cornell -o x.stl", 2, "scenes are written as");
-  expect_error(render + "--projection fisheye --mask-scale 2 -o x.exr", 2, "the CPU alone draws panoramas");
-  expect_error("measure" + scene("cornell") + "--compare --projection panorama", 2,
-               "draws no panorama, fisheye or distorted lens");
+  expect_error("generate cornell -o x.stl", 2, "choose .gltf, .glb or .obj");
+  expect_error(render + "--projection fisheye --mask-scale 2 -o x.exr", 2, "the CPU alone draws a panorama");
+  expect_error("measure" + scene("cornell") + "--compare --projection panorama", 2, "cannot draw a panorama");
 }
 
 TEST_F(ErrorsTest, Outputs) {

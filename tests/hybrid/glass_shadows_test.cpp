@@ -1,42 +1,16 @@
-// Light that goes straight on through glass (--glass-shadows tinted), and an eye inside of glass: by hand,
-// and the same by every schedule and the reference.
+// Light that goes straight on through glass (--glass-shadows tinted): by hand, and the same by every schedule
+// and the reference.
 #include <cmath>
-#include <numbers>
 
 #include "core/compare/figures.h"
 #include "core/image/rgb.h"
-#include "core/reference/reference.h"
 #include "core/scene/gltf/material_from_surface.h"
 #include "hybrid/settings/resolve.h"
 #include "scenes/generator/mesh_builder.h"
-#include "tests/support/draw.h"
+#include "tests/hybrid/glass.h"
 
 namespace pinocchio {
 namespace {
-
-constexpr glm::ivec2 kSize{32, 24}, kLarger{96, 72};
-constexpr glm::vec3 kColor{0.8f, 0.5f, 0.2f};  // after
-constexpr float kDistance = 0.5f;
-
-Material matt(float albedo = 0.5f) {
-  Material m;
-  m.ambient = glm::vec3(0.0f);
-  m.diffuse = glm::vec3(albedo * std::numbers::inv_pi_v<float>);
-  m.brdf = true;
-  return m;
-}
-
-Material glass(float ior, bool colored) {
-  Material m;
-  m.ambient = m.diffuse = glm::vec3(0.0f);
-  m.transmittance = glm::vec3(1.0f);
-  m.ior = ior;
-  if (colored) {
-    m.attenuation_color = kColor;
-    m.attenuation_distance = kDistance;
-  }
-  return m;
-}
 
 // Opaque in one colour, so that each triangle of the scene is used.
 Light sun(const glm::vec3& direction = {0, -1, 0}) {
@@ -79,40 +53,6 @@ class Floor {
   MeshBuilder builder_;
 };
 
-struct Way {
-  std::string name;
-  Settings settings;
-};
-// Every schedule.
-std::vector<Way> ways() {
-  std::vector<Way> all{{"raytrace", by({{"mode", "raytrace"}})},
-                       {"design 1", by({{"design", "1"}})},
-                       {"design 2", by({{"design", "2"}})},
-                       {"design 1 by camera rays", by({{"design", "1"}})}};
-  all.back().settings.visibility = Processor::cpu;
-  for (Way& way : all) way.settings.glass_shadows = GlassShadows::tinted;
-  return all;
-}
-
-FrameResult drawn(const Scene& scene, Settings settings, glm::ivec2 size = kSize) {
-  return draw_one(scene, {.settings = std::move(settings), .size = size});
-}
-
-ReferencePicture precise(const Scene& scene, glm::ivec2 size = kSize,
-                         GlassShadows shadows = GlassShadows::tinted) {
-  Workers workers(2);
-  return reference_render(scene, {first_camera(scene), size}, 8, workers, nullptr,
-                          {.glass_shadows = shadows});
-}
-
-glm::vec3 middle(const Image<glm::vec4>& picture) {
-  return glm::vec3(picture.at(picture.width() / 2, picture.height() / 2));
-}
-
-void expect_near(const glm::vec3& a, const glm::vec3& b, float tolerance, const std::string& what) {
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], tolerance) << what << ", channel " << c;
-}
-
 // The share of the sun that reaches the floor's middle.
 void expect_share(const Scene& scene, const glm::vec3& share, const std::string& what) {
   const float cosine = -scene.lights.front().direction.y;
@@ -121,10 +61,6 @@ void expect_share(const Scene& scene, const glm::vec3& share, const std::string&
   for (const Way& way : ways())
     expect_near(middle(drawn(scene, way.settings).color), expected, way.settings.uses_gpu() ? 4e-3f : 1e-5f,
                 what + ", " + way.name);
-}
-
-glm::vec3 absorbed(float way) {
-  return glm::pow(kColor, glm::vec3(way / kDistance));
 }
 
 TEST(GlassShadows, ASlabTakesWhatFresnelAndBeerSay) {
@@ -383,73 +319,6 @@ TEST(GlassShadows, TheSkyAgreesInTheMean) {
     const glm::dvec3 ours = sum_of(drawn(scene, settings).color);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(ours[c] / exact[c], 1.0, 0.015) << way.name << " " << c;
   }
-}
-
-// A wall that shines, seen from inside a slab of glass before it, and a thing in the same glass.
-Scene from_inside(bool with_fly, bool open = false) {
-  MeshData mesh;
-  MeshBuilder builder(mesh);
-  builder.use(glass(1.5f, true));
-  if (open)
-    builder.quad({4, -4, -1}, {-4, -4, -1}, {-4, 4, -1}, {4, 4, -1});  // its back is towards the eye
-  else
-    builder.box({-4, -4, -1}, {4, 4, 1});
-  Material shining = matt(0.0f);
-  shining.emission = glm::vec3(1.0f);
-  builder.use(shining);
-  builder.quad({-9, -9, -3}, {9, -9, -3}, {9, 9, -3}, {-9, 9, -3});
-  if (with_fly) builder.quad({-1, -1, -0.5f}, {1, -1, -0.5f}, {1, 1, -0.5f}, {-1, 1, -0.5f});
-  Scene scene(std::move(mesh));
-  scene.ambient_light = glm::vec3(0.0f);
-  scene.cameras = {{"inside", {0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 2.0f}};
-  return scene;
-}
-
-void expect_seen(const Scene& scene, const glm::vec3& expected, const std::string& what) {
-  expect_near(middle(precise(scene).color), expected, 2e-4f, what + ", reference");
-  for (const Way& way : ways())
-    expect_near(middle(drawn(scene, way.settings).color), expected, 6e-3f, what + ", " + way.name);
-}
-
-TEST(EyeInGlass, LightIsAbsorbedOnItsWayToTheEye) {
-  // What the far wall mirrors back inside is as the light that comes from behind the eye: none.
-  const glm::vec3 way = absorbed(1.0f), seen = 0.96f * way;
-  expect_seen(from_inside(false), seen, "through the wall");
-  expect_seen(from_inside(true), absorbed(0.5f), "in the glass");
-  Scene lit = from_inside(true);
-  {
-    MeshEdit mesh(lit);
-    mesh->materials[1] = matt(1.0f);
-  }
-  Light light = point_light({0, 0, 0}, false);
-  light.intensity = std::numbers::pi_v<float>;
-  lit.lights = {light};
-  expect_seen(lit, absorbed(0.5f), "by a light that casts none");
-  lit.lights.front().casts_shadow = true;  // now the glass between light and thing counts, too
-  expect_seen(lit, absorbed(1.0f), "by a light that casts");
-}
-
-TEST(EyeInGlass, OpenMeshesHaveNoInside) {
-  expect_seen(from_inside(false, true), glm::vec3(0.96f), "a sheet seen from behind");
-}
-
-TEST(EyeInGlass, TheInnermostBodyCounts) {
-  Scene scene = from_inside(true);
-  {
-    MeshEdit mesh(scene);
-    MeshBuilder builder(*mesh);
-    builder.use(glass(1.1f, false));
-    builder.box({-0.2f, -0.2f, -0.25f}, {0.2f, 0.2f, 0.25f});
-  }
-  const float passed = 1.0f - std::pow(0.1f / 2.1f, 2.0f);
-  // Behind the bubble the medium is unknown: the bubble ends at a clear side.
-  expect_seen(scene, glm::vec3(passed), "a bubble around the eye");
-}
-
-TEST(EyeInGlass, CamerasWithoutOneEyeCountAsOutside) {
-  Scene scene = from_inside(true);
-  scene.cameras.front().projection = Projection::orthographic;
-  expect_seen(scene, glm::vec3(1.0f), "orthographic");
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ struct ExportedView {
   std::string environment{};        // file. Empty: none
   glm::ivec2 size{0, 0};            // pixels
   int samples = 1;
-  // What `render` would do otherwise: the window filters by default, and where the studio lights the scene,
-  // `render` has a number of samples and an exposure of its own.
+  // The window filters by default, `render` does not. Under the studio's light, `render` chooses samples and
+  // exposure by itself. So the command names them.
   bool denoised = false, studio_light = false;
   float exposure_ev = 0.0f;
   ToneMap tone_map = ToneMap::clip;

@@ -103,7 +103,7 @@ struct Bounce {
   SampledPoint* points = nullptr;  // a tile's pixels: the surfaces, for the filter; null: not wanted
   bool lights_alone = false;       // other steps have the same rays' surfaces, and light of other lights
 
-  // Whether shadow rays are left out where the light is too faint.
+  // True if lights that are too faint get no shadow ray.
   [[nodiscard]] bool cuts_light() const { return visible && options->light_cutoff > 0.0f; }
 };
 

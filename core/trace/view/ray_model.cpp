@@ -45,16 +45,26 @@ glm::dvec3 RayModel::to_world(const glm::dvec3& d) const {
   return d.x * glm::dvec3(axes_.right) - d.y * glm::dvec3(axes_.up) + d.z * glm::dvec3(axes_.forward);
 }
 
-Ray RayModel::ray(int x, int y) const {
+std::size_t RayModel::number_of(int x, int y) const {
   const glm::ivec2 pixel = first_ + glm::ivec2(x, y);
+  return as_size(pixel.y) * as_size(view_.size.x) + as_size(pixel.x);
+}
+
+glm::dvec3 RayModel::exact_direction(int x, int y) const {
   if (const PixelRays* const given = view_.rays.get()) {
-    const auto i = as_size(pixel.y) * as_size(view_.size.x) + as_size(pixel.x);
-    const glm::vec3 &origin = given->origins[i], &direction = given->directions[i];
-    if (!is_finite(origin) || !is_finite(direction)) return {glm::vec3(0.0f), kInfinity, glm::vec3(0.0f)};
-    return {origin, kInfinity, direction};
+    const std::size_t i = number_of(x, y);
+    const bool finite = is_finite(given->origins[i]) && is_finite(given->directions[i]);
+    return finite ? glm::dvec3(given->directions[i]) : glm::dvec3(0.0);
   }
-  const glm::dvec3 d = to_world(direction(glm::dvec2(pixel) + 0.5 + glm::dvec2(view_.jitter)));
-  return {view_.camera.eye, kInfinity, glm::vec3(d)};
+  const glm::dvec2 pixel(first_ + glm::ivec2(x, y));
+  return to_world(direction(pixel + 0.5 + glm::dvec2(view_.jitter)));
+}
+
+Ray RayModel::ray(int x, int y) const {
+  const glm::vec3 direction(exact_direction(x, y));
+  if (!view_.rays) return {view_.camera.eye, kInfinity, direction};
+  const bool sees = direction != glm::vec3(0.0f);
+  return {sees ? view_.rays->origins[number_of(x, y)] : glm::vec3(0.0f), kInfinity, direction};
 }
 
 void RayModel::fill(glm::ivec2 corner, int bits, RayQueue& rays) const {

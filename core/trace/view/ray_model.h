@@ -20,6 +20,8 @@ class RayModel {
   // The ray of the pixel (x, y), counted from the first drawn one. Its direction is zero where the pixel sees
   // nothing.
   [[nodiscard]] Ray ray(int x, int y) const;
+  // Its direction before it is rounded.
+  [[nodiscard]] glm::dvec3 exact_direction(int x, int y) const;
   // Sets the rays of the tile at `corner`, whose pixels are set, `bits` bits of them across.
   void fill(glm::ivec2 corner, int bits, RayQueue& rays) const;
   // What textures are averaged over near the pixel. `side`: of a sample's share of its pixel. None for the
@@ -35,6 +37,7 @@ class RayModel {
   // In camera space: x right, y down, z forward. `pixel`: a place in the whole picture, 0 is the edge.
   [[nodiscard]] glm::dvec3 direction(glm::dvec2 pixel) const;
   [[nodiscard]] glm::dvec3 to_world(const glm::dvec3& direction) const;
+  [[nodiscard]] std::size_t number_of(int x, int y) const;  // of the caller's ray
 
   View view_;
   CameraAxes axes_;
