@@ -105,7 +105,7 @@ Motion measure_motion(const MotionOptions& o, const BuildOptions& tree) {
   options.threads = o.threads;
   for (const Light& light : base.lights) options.lights.push_back(light.position);
   const auto tracer_of = [&](const Scene& scene, const Tracer* before) {
-    return std::make_shared<const Tracer>(scene, options, std::nullopt, OffsetMethod::error_bound, before);
+    return std::make_shared<const Tracer>(scene, options, o.isa, OffsetMethod::error_bound, before);
   };
   std::vector<double> still, pose, trees, drawn, frame, rebuild;
   Scene scene = base;

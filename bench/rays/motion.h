@@ -1,9 +1,11 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 
 #include "pinocchio/build_options.h"
+#include "pinocchio/tracer.h"
 
 namespace pinocchio::bench {
 
@@ -15,6 +17,7 @@ struct MotionOptions {
   glm::ivec2 size{256, 256};
   int threads = 0;
   int frames = 40;
+  std::optional<Isa> isa{};  // the best of this processor
 };
 
 // Times of its frames: medians, in milliseconds. All are of the same poses, interleaved.

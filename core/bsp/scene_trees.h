@@ -27,11 +27,17 @@ struct MovingTree {
   static constexpr float kPerOrigin = 0x1p-19f;
 };
 
-// A node of the top level: a binary tree of boxes over the moving trees.
+// A node of the top level: boxes side by side, each about a moving tree or about the boxes of another node.
 struct TopNode {
-  Bounds box;           // p_world, widened
-  std::uint32_t first;  // of two adjacent children, or the moving tree
-  int axis;             // along which the first child is below the second; -1: one tree
+  static constexpr std::uint32_t kMost = 16;  // as many as the widest lanes
+  static constexpr std::uint32_t kNode = 1u << 31;
+  alignas(64) float lo[3][kMost], hi[3][kMost];  // p_world, widened
+  std::uint32_t below[kMost];                    // a moving tree; with kNode a node
+  std::uint32_t count;
+
+  [[nodiscard]] Bounds box(std::uint32_t i) const {
+    return {{lo[0][i], lo[1][i], lo[2][i]}, {hi[0][i], hi[1][i], hi[2][i]}};
+  }
 };
 
 // All trees of a scene in one pose.
@@ -44,7 +50,7 @@ struct SceneTrees {
   Bounds bounds{};                       // as of a tree over all
 };
 
-// The deepest top level: halves of at most 2^30 trees.
-inline constexpr int kMostTopDepth = 32;
+// The deepest top level: 16^8 trees.
+inline constexpr int kMostTopDepth = 8;
 
 }  // namespace pinocchio

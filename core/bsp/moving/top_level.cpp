@@ -12,36 +12,58 @@ class TopLevel {
  public:
   explicit TopLevel(std::span<const Bounds> boxes) : boxes_(boxes), order_(boxes.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
-    if (boxes.empty()) return;
-    nodes.resize(1);
-    build(0, 0, boxes.size());
+    if (!boxes.empty()) add_node(0, boxes.size());
   }
 
   std::vector<TopNode> nodes;
 
  private:
-  void build(std::uint32_t index, std::size_t first, std::size_t last) {
-    Bounds box, centers;
-    for (std::size_t i = first; i < last; ++i) {
-      box.add(boxes_[order_[i]]);
-      centers.add(boxes_[order_[i]].center());
+  // Of so many boxes in the order; returns its number.
+  std::uint32_t add_node(std::size_t first, std::size_t count) {
+    std::size_t each = 1;  // most boxes below one of the node's
+    while (each * TopNode::kMost < count) each *= TopNode::kMost;
+    const auto node = as_uint32(nodes.size());
+    nodes.push_back({});
+    fill(node, first, count, (count + each - 1) / each);
+    return node;
+  }
+
+  // Adds `parts` boxes to the node, about all that the order has there.
+  void fill(std::uint32_t node, std::size_t first, std::size_t count, std::size_t parts) {
+    if (parts == 1) {
+      const std::uint32_t below = count == 1 ? order_[first] : TopNode::kNode | add_node(first, count);
+      return add_box(nodes[node], bounds_of(first, count), below);
     }
-    if (last - first == 1) {
-      nodes[index] = {box, order_[first], -1};
-      return;
-    }
+    const std::size_t left = parts / 2, below_left = count * left / parts;
+    split(first, count, below_left);
+    fill(node, first, below_left, left);
+    fill(node, first + below_left, count - below_left, parts - left);
+  }
+
+  // Puts the lowest boxes, along the longest side of the centres, first.
+  void split(std::size_t first, std::size_t count, std::size_t lowest) {
+    Bounds centers;
+    for (std::size_t i = first; i < first + count; ++i) centers.add(boxes_[order_[i]].center());
     const glm::vec3 e = centers.extent();
     const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
-    const std::size_t middle = first + (last - first) / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                     [&](std::uint32_t a, std::uint32_t b) {
-                       return boxes_[a].center()[axis] < boxes_[b].center()[axis];
-                     });
-    const auto children = as_uint32(nodes.size());
-    nodes.resize(nodes.size() + 2);
-    nodes[index] = {box, children, axis};
-    build(children, first, middle);
-    build(children + 1, middle, last);
+    const auto begin = order_.begin() + first;
+    std::nth_element(begin, begin + lowest, begin + count, [&](std::uint32_t a, std::uint32_t b) {
+      return boxes_[a].center()[axis] < boxes_[b].center()[axis];
+    });
+  }
+
+  [[nodiscard]] Bounds bounds_of(std::size_t first, std::size_t count) const {
+    Bounds box;
+    for (std::size_t i = first; i < first + count; ++i) box.add(boxes_[order_[i]]);
+    return box;
+  }
+
+  static void add_box(TopNode& node, const Bounds& box, std::uint32_t below) {
+    for (int axis = 0; axis < 3; ++axis) {
+      node.lo[axis][node.count] = box.lo[axis];
+      node.hi[axis][node.count] = box.hi[axis];
+    }
+    node.below[node.count++] = below;
   }
 
   std::span<const Bounds> boxes_;

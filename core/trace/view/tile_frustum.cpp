@@ -47,9 +47,12 @@ class Search {
 
   bool reaches(const std::vector<TopNode>& top, std::uint32_t index) {
     const TopNode& node = top[index];
-    if (left_-- == 0) return true;
-    if (frustum_.misses(node.box)) return false;
-    return node.axis < 0 || reaches(top, node.first) || reaches(top, node.first + 1);
+    for (std::uint32_t i = 0; i < node.count; ++i) {
+      if (left_-- == 0) return true;
+      if (frustum_.misses(node.box(i))) continue;
+      if ((node.below[i] & TopNode::kNode) == 0 || reaches(top, node.below[i] & ~TopNode::kNode)) return true;
+    }
+    return false;
   }
 
   const TileFrustum& frustum_;

@@ -1,6 +1,8 @@
 // Part of walk/kernel.h: trees that move.
 #pragma once
 
+#include "core/trace/walk/top_level.h"
+
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
@@ -80,30 +82,24 @@ template <class Test, class Found, std::size_t... kIndex>
   Group<kPackets> world;
   (world.packets[kIndex].load(rays, i + kIndex * kWidth, n), ...);
   const Test tests[]{Test(scene, world.packets[kIndex])...};
-  unsigned first_lane = 0;
-  bool falls[3] = {};  // most rays run as the first does: what is nearer to it is visited first
-  for (int k = kPackets; k-- > 0;) {
-    for (int axis = 0; axis < 3; ++axis) {
+  for (int k = 0; k < kPackets; ++k)
+    for (int axis = 0; axis < 3; ++axis)
       world.octants[k].inverse[axis] = Float(1.0f) / world.packets[k].d[axis];
-      if (world.packets[k].living == 0) continue;
-      first_lane = __builtin_ctz(world.packets[k].living);
-      falls[axis] = ((world.packets[k].d[axis] < Float(0.0f)).bits() >> first_lane & 1u) != 0;
-    }
-  }
-  std::uint32_t stack[kMostTopDepth];
-  int depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const TopNode& node = scene.top[stack[--depth]];
+  Beam beam;
+  if (scene.moving.size() > kFewTrees) beam.enclose(world);
+  TopStack stack;
+  stack.push(scene, 0, beam, greatest_of(found.t_best));
+  while (!stack.empty()) {
+    const TopStack::Entry at = stack.pop();
+    const TopNode& node = scene.top[at.node];
     unsigned living[kPackets];
-    if (reach_box(node.box, world, found.t_best, living) == 0) continue;
-    if (node.axis >= 0) {
-      const std::uint32_t near = falls[node.axis] ? 1 : 0;
-      stack[depth++] = node.first + (1 - near);
-      stack[depth++] = node.first + near;
+    if (reach_box(node.box(at.box), world, found.t_best, living) == 0) continue;
+    const std::uint32_t below = node.below[at.box];
+    if ((below & TopNode::kNode) != 0) {
+      stack.push(scene, below & ~TopNode::kNode, beam, greatest_of(found.t_best));
       continue;
     }
-    const MovingTree& tree = scene.moving[node.first];
+    const MovingTree& tree = scene.moving[below];
     MovedGroup<kPackets> moved(tree, world, living);
     const auto add_hits = [&](const auto& triangles) {
       for_each_octant(moved.group, [&](const bool(&negative)[3], const Mask(&lanes)[kPackets]) {
