@@ -24,6 +24,9 @@ constexpr std::uint8_t kMoves = 2;
 // Triangles that a thread places at a time.
 constexpr std::size_t kPosedChunk = 2048;
 
+// Larger meshes are not in a core's caches.
+constexpr std::size_t kLargeMesh = 65536;
+
 // Fewer triangles are placed by one thread.
 constexpr std::size_t kForThreads = 8192;
 
@@ -279,9 +282,22 @@ class Trees {
                             });
   }
 
+  // Triangles come in the tree's order, from all over the mesh's memory.
+  void fetch_ahead(const std::vector<std::uint32_t>& order, std::size_t i) const {
+    constexpr std::size_t kCorners = 24, kPositions = 8;  // so many triangles ahead
+    const auto ahead = [&](std::size_t by) -> const glm::uvec3& {
+      return mesh_.triangles[order[std::min(i + by, order.size() - 1)]];
+    };
+    __builtin_prefetch(&ahead(kCorners));
+    const glm::uvec3& soon = ahead(kPositions);
+    for (int corner = 0; corner < 3; ++corner) __builtin_prefetch(&mesh_.positions[soon[corner]]);
+  }
+
   // Stores triangles as posed. Those without an area are never hit, as if the tree did not have them.
   void place(const std::vector<std::uint32_t>& order, Chunk& chunk, StoredTriangles& stored) const {
+    const bool large = mesh_.triangles.size() > kLargeMesh;
     for (std::size_t i = chunk.first; i < chunk.last; ++i) {
+      if (large) fetch_ahead(order, i);
       const glm::uvec3& corners = mesh_.triangles[order[i]];
       const glm::vec3 &a = mesh_.positions[corners.x], &b = mesh_.positions[corners.y],
                       &c = mesh_.positions[corners.z];

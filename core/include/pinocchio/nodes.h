@@ -112,6 +112,9 @@ class Placement {
  public:
   explicit Placement(const glm::mat4& world_from_node);
 
+  // Of many vertices at once, the same bits.
+  void place(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
+             glm::vec3* placed_positions, glm::vec3* placed_normals) const;
   [[nodiscard]] glm::vec3 position(const glm::vec3& p) const;
   [[nodiscard]] glm::vec3 normal(const glm::vec3& n) const;     // unit; zero stays zero
   [[nodiscard]] glm::vec4 tangent(const glm::vec4& t) const;    // a mirror changes the bitangent's side
@@ -120,7 +123,7 @@ class Placement {
 
  private:
   glm::mat4 world_from_node_;
-  glm::mat3 normals_to_world_;
+  glm::mat3x4 normals_to_world_;  // the last row is zero
   bool mirrors_, identity_;
 };
 

@@ -96,25 +96,60 @@ glm::mat3 brought_near_one(const glm::mat4& m) {
 
 Placement::Placement(const glm::mat4& m) : world_from_node_(m), identity_(m == glm::mat4(1.0f)) {
   const glm::mat3 linear = brought_near_one(m);
-  normals_to_world_ = glm::transpose(glm::inverse(linear));
+  normals_to_world_ = glm::mat3x4(glm::transpose(glm::inverse(linear)));
   mirrors_ = glm::determinant(linear) < 0.0f;
 }
 
-// With GLM's products, which GCC does not inline, all vertices take twice as long. Same order, same bits.
-glm::vec3 Placement::position(const glm::vec3& p) const {
-  if (identity_) return p;
+namespace {
+
+using Column [[gnu::vector_size(16)]] = float;
+Column column_of(const glm::vec4& c) {
+  return Column{c.x, c.y, c.z, c.w};
+}
+glm::vec3 first_three(Column v) {
+  return {v[0], v[1], v[2]};
+}
+
+// A column a register: with GLM's products, which GCC does not inline, all vertices take twice as long.
+glm::vec3 moved(const Column (&m)[4], const glm::vec3& p) {
+  return first_three((m[0] * p.x + m[1] * p.y) + (m[2] * p.z + m[3]));
+}
+
+glm::vec3 turned(const Column (&m)[3], const glm::vec3& n) {
+  if (n == glm::vec3(0.0f)) return n;
+  const Column world = m[0] * n.x + m[1] * n.y + m[2] * n.z, squares = world * world;
+  const float length = std::sqrt(squares[0] + squares[1] + squares[2]);
+  if (!(length > 0.0f && std::isfinite(length))) return glm::vec3(0.0f);
+  return first_three(world / length);
+}
+
+}  // namespace
+
+void Placement::place(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
+                      glm::vec3* placed_positions, glm::vec3* placed_normals) const {
+  if (identity_) {
+    std::ranges::copy(positions, placed_positions);
+    std::ranges::copy(normals, placed_normals);
+    return;
+  }
   const glm::mat4& m = world_from_node_;
-  const auto row = [&](int i) { return (m[0][i] * p.x + m[1][i] * p.y) + (m[2][i] * p.z + m[3][i]); };
-  return {row(0), row(1), row(2)};
+  const glm::mat3x4& n = normals_to_world_;
+  const Column of_positions[4] = {column_of(m[0]), column_of(m[1]), column_of(m[2]), column_of(m[3])},
+               of_normals[3] = {column_of(n[0]), column_of(n[1]), column_of(n[2])};
+  for (std::size_t i = 0; i < positions.size(); ++i) placed_positions[i] = moved(of_positions, positions[i]);
+  for (std::size_t i = 0; i < normals.size(); ++i) placed_normals[i] = turned(of_normals, normals[i]);
+}
+
+glm::vec3 Placement::position(const glm::vec3& p) const {
+  glm::vec3 placed;
+  place({&p, 1}, {}, &placed, nullptr);
+  return placed;
 }
 
 glm::vec3 Placement::normal(const glm::vec3& n) const {
-  if (identity_ || n == glm::vec3(0.0f)) return n;
-  const glm::mat3& m = normals_to_world_;
-  const auto row = [&](int i) { return m[0][i] * n.x + m[1][i] * n.y + m[2][i] * n.z; };
-  const glm::vec3 world(row(0), row(1), row(2));
-  const float length = std::sqrt(world.x * world.x + world.y * world.y + world.z * world.z);
-  return length > 0.0f && std::isfinite(length) ? world / length : glm::vec3(0.0f);
+  glm::vec3 placed;
+  place({}, {&n, 1}, nullptr, &placed);
+  return placed;
 }
 
 glm::vec4 Placement::tangent(const glm::vec4& t) const {
@@ -153,12 +188,12 @@ std::vector<glm::mat4> world_matrices(const std::vector<Node>& nodes) {
 }
 
 void place_vertices(const Node& node, const Placement& now, const RestPose& rest, MeshData& mesh) {
-  const std::size_t last = std::size_t{node.first_vertex} + node.vertices;
-  for (std::size_t v = node.first_vertex; v < last; ++v) {
-    mesh.positions[v] = now.position(rest.positions[v]);
-    mesh.normals[v] = now.normal(rest.normals[v]);
-    if (!mesh.tangents.empty()) mesh.tangents[v] = now.tangent(rest.tangents[v]);
-  }
+  const std::size_t first = node.first_vertex, last = first + node.vertices;
+  now.place(std::span(rest.positions).subspan(first, node.vertices),
+            std::span(rest.normals).subspan(first, node.vertices), mesh.positions.data() + first,
+            mesh.normals.data() + first);
+  if (mesh.tangents.empty()) return;
+  for (std::size_t v = first; v < last; ++v) mesh.tangents[v] = now.tangent(rest.tangents[v]);
 }
 
 void turn_around(const Node& node, MeshData& mesh) {
