@@ -146,7 +146,7 @@ void run_motion(const Options& o) {
   motion.size.y = motion.size.x;
   if (o.triangles > 0) motion.triangles = o.triangles;
   motion.threads = o.threads;
-  motion.isa = chosen_isas(o.isas).front();
+  motion.isa = widest(o);
   motion.frames = std::max(4 * o.repeat, 8);
   const Motion measured = measure_motion(motion, build_options(o, Scene{}));
   print(measured);

@@ -131,6 +131,7 @@ Motion measure_motion(const MotionOptions& o, const BuildOptions& tree) {
     result.differ += differing(kept, rebuilt);
   }
   const auto ms = [](std::vector<double>& seconds) { return 1e3 * median(seconds); };
+  result.isa = std::string(isa_name(tracer->isa()));
   result.still_ms = ms(still);
   result.pose_ms = ms(pose);
   result.trees_ms = ms(trees);
@@ -141,8 +142,8 @@ Motion measure_motion(const MotionOptions& o, const BuildOptions& tree) {
 }
 
 void print(const Motion& m) {
-  std::printf("%d of %d parts move, %zu triangles, %dx%d, %d threads; milliseconds a frame:\n", m.moving,
-              m.parts, m.triangles, m.size.x, m.size.y, m.threads);
+  std::printf("%d of %d parts move, %zu triangles, %dx%d, %d threads, %s; milliseconds a frame:\n", m.moving,
+              m.parts, m.triangles, m.size.x, m.size.y, m.threads, m.isa.c_str());
   std::printf("%8s %8s %8s %8s %8s %6s %10s %6s %8s\n", "still", "pose", "trees", "drawn", "frame", "lost",
               "one tree", "lost", "differ");
   std::printf("%8.2f %8.2f %8.2f %8.2f %8.2f %5.1f%% %10.2f %5.1f%% %8zu\n", m.still_ms, m.pose_ms,
@@ -151,19 +152,13 @@ void print(const Motion& m) {
 }
 
 void save(const Motion& m, const std::string& file) {
-  const nlohmann::json json{{"moving", m.moving},
-                            {"parts", m.parts},
-                            {"triangles", m.triangles},
-                            {"size", {m.size.x, m.size.y}},
-                            {"threads", m.threads},
-                            {"still_ms", m.still_ms},
-                            {"pose_ms", m.pose_ms},
-                            {"trees_ms", m.trees_ms},
-                            {"drawn_ms", m.drawn_ms},
-                            {"frame_ms", m.frame_ms},
-                            {"lost", m.lost()},
-                            {"one_tree_ms", m.rebuild_ms},
-                            {"lost_by_rebuilding", m.lost_by_rebuilding()},
+  const nlohmann::json json{{"moving", m.moving},          {"parts", m.parts},
+                            {"triangles", m.triangles},    {"size", {m.size.x, m.size.y}},
+                            {"threads", m.threads},        {"isa", m.isa},
+                            {"still_ms", m.still_ms},      {"pose_ms", m.pose_ms},
+                            {"trees_ms", m.trees_ms},      {"drawn_ms", m.drawn_ms},
+                            {"frame_ms", m.frame_ms},      {"lost", m.lost()},
+                            {"one_tree_ms", m.rebuild_ms}, {"lost_by_rebuilding", m.lost_by_rebuilding()},
                             {"differing_pixels", m.differ}};
   write_text(file, json.dump(2) + "\n");
 }

@@ -26,6 +26,7 @@ struct Motion {
   std::size_t triangles = 0;
   glm::ivec2 size{0};
   int threads = 1;
+  std::string isa{};
   double still_ms = 0.0;  // drawing alone, with one tree over all
   double pose_ms = 0.0;
   double trees_ms = 0.0;    // the trees of what moves

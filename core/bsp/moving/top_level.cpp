@@ -18,7 +18,7 @@ class TopLevel {
   std::vector<TopNode> nodes;
 
  private:
-  // Of so many boxes in the order; returns its number.
+  // Adds a node over `count` boxes of the order; returns its number.
   std::uint32_t add_node(std::size_t first, std::size_t count) {
     std::size_t each = 1;  // most boxes below one of the node's
     while (each * TopNode::kMost < count) each *= TopNode::kMost;
@@ -28,7 +28,7 @@ class TopLevel {
     return node;
   }
 
-  // Adds `parts` boxes to the node, about all that the order has there.
+  // Adds `parts` boxes to the node, which together enclose those of the order.
   void fill(std::uint32_t node, std::size_t first, std::size_t count, std::size_t parts) {
     if (parts == 1) {
       const std::uint32_t below = count == 1 ? order_[first] : TopNode::kNode | add_node(first, count);

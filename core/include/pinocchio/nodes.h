@@ -112,7 +112,7 @@ class Placement {
  public:
   explicit Placement(const glm::mat4& world_from_node);
 
-  // Of many vertices at once, the same bits.
+  // Many vertices, with the bits of position() and normal().
   void place(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
              glm::vec3* placed_positions, glm::vec3* placed_normals) const;
   [[nodiscard]] glm::vec3 position(const glm::vec3& p) const;

@@ -110,7 +110,8 @@ glm::vec3 first_three(Column v) {
   return {v[0], v[1], v[2]};
 }
 
-// A column a register: with GLM's products, which GCC does not inline, all vertices take twice as long.
+// A matrix column in each register: with GLM's products, which GCC does not inline, all vertices take twice
+// as long.
 glm::vec3 moved(const Column (&m)[4], const glm::vec3& p) {
   return first_three((m[0] * p.x + m[1] * p.y) + (m[2] * p.z + m[3]));
 }

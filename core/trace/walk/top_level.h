@@ -34,7 +34,7 @@ inline float greatest_of(const Float (&x)[kPackets]) {
 // reaches is left out.
 class Beam {
  public:
-  // Until then every box is reached.
+  // Before this call the beam reaches every box.
   template <int kPackets>
   void enclose(const Group<kPackets>& group) {
     const Float none(kInfinity);
@@ -58,6 +58,7 @@ class Beam {
   // The boxes of the node, from number `first` on, that some ray may reach before `end`; `soonest`: at the
   // earliest then.
   [[nodiscard]] Mask reaches(const TopNode& node, std::size_t first, float end, Float& soonest) const {
+    static_assert(TopNode::kMost % kWidth == 0);
     Float t_far(end);
     soonest = Float(0.0f);
     for (int axis = 0; axis < 3; ++axis) {
@@ -81,7 +82,7 @@ class Beam {
   bool turns_[3] = {true, true, true};  // the rays neither all rise nor all fall
 };
 
-// Boxes of the top level that are still to be looked at, the soonest last.
+// Boxes of the top level that are still to be looked at; of one node, the soonest first.
 class TopStack {
  public:
   struct Entry {

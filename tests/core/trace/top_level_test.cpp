@@ -38,7 +38,7 @@ int count_trees(const std::vector<TopNode>& top, std::uint32_t number, const Bou
   return depth + 1;
 }
 
-TEST(TopLevel, HoldsEveryTreeOnceInFullNodes) {
+TEST(TopLevel, HoldsEveryTreeOnceInTheFewestLevels) {
   EXPECT_TRUE(build_top_level({}).empty());
   Random random(3);
   for (const std::size_t n : {1u, 2u, 15u, 16u, 17u, 255u, 256u, 257u, 3000u, 5000u}) {
@@ -58,7 +58,7 @@ TEST(TopLevel, HoldsEveryTreeOnceInFullNodes) {
 
 constexpr float kReach = 8.0f;  // of the balls from the middle, along each axis
 
-// Balls that have moved often enough for trees of their own.
+// So many balls, a node each.
 Scene balls(int count, Random& random) {
   MeshData one;
   MeshBuilder builder(one);
