@@ -72,7 +72,7 @@ void add_output_options(CLI::App& verb, OutputOptions& options);
 [[nodiscard]] std::string json_text(const nlohmann::json& json);
 void write_json(const std::filesystem::path& file, const nlohmann::json& json);
 
-// What is wrong with the file's name; empty: it has the extension.
+// The error message for a file whose name does not end in `extension`; empty where it does.
 [[nodiscard]] std::string ending_error(const std::string& file, const std::string& extension);
 
 // Makes the folder and those above it that are missing. Ends the verb with kFailed where it cannot.

@@ -21,14 +21,14 @@ class ReferenceCamera {
     bool parallel;              // the sides are the same at any t
 
     [[nodiscard]] bool sees() const { return ray.direction != glm::dvec3(0.0); }
-    // What textures are averaged over where the ray meets a surface at t.
+    // The part of a surface at t over which its textures are averaged.
     [[nodiscard]] ReferenceSpread spread_at(double t) const;
   };
   // The ray of the pixel (x, y), counted from the first drawn one. `footprint`:
   // TraceOptions::texture_footprint.
   [[nodiscard]] PixelRay pixel(int x, int y, float footprint) const;
 
-  // Where all rays begin; none: they begin in several places.
+  // The point that all rays start from; none: each pixel has one of its own.
   [[nodiscard]] std::optional<glm::dvec3> eye() const;
 
  private:

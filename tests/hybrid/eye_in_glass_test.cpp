@@ -35,7 +35,7 @@ void expect_seen(const Scene& scene, const glm::vec3& expected, const std::strin
 }
 
 TEST(EyeInGlass, LightIsAbsorbedOnItsWayToTheEye) {
-  // What the far wall mirrors back inside is as the light that comes from behind the eye: none.
+  // The wall before the eye mirrors what is behind the eye, where there is no light.
   const glm::vec3 way = absorbed(1.0f), seen = 0.96f * way;
   expect_seen(from_inside(false), seen, "through the wall");
   expect_seen(from_inside(true), absorbed(0.5f), "in the glass");

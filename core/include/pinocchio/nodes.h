@@ -114,7 +114,7 @@ class Placement {
 
   // Many vertices, with the bits of position() and normal().
   void place(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
-             glm::vec3* placed_positions, glm::vec3* placed_normals) const;
+             std::span<glm::vec3> placed_positions, std::span<glm::vec3> placed_normals) const;
   [[nodiscard]] glm::vec3 position(const glm::vec3& p) const;
   [[nodiscard]] glm::vec3 normal(const glm::vec3& n) const;     // unit; zero stays zero
   [[nodiscard]] glm::vec4 tangent(const glm::vec4& t) const;    // a mirror changes the bitangent's side

@@ -127,10 +127,10 @@ glm::vec3 turned(const Column (&m)[3], const glm::vec3& n) {
 }  // namespace
 
 void Placement::place(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
-                      glm::vec3* placed_positions, glm::vec3* placed_normals) const {
+                      std::span<glm::vec3> placed_positions, std::span<glm::vec3> placed_normals) const {
   if (identity_) {
-    std::ranges::copy(positions, placed_positions);
-    std::ranges::copy(normals, placed_normals);
+    std::ranges::copy(positions, placed_positions.begin());
+    std::ranges::copy(normals, placed_normals.begin());
     return;
   }
   const glm::mat4& m = world_from_node_;
@@ -143,13 +143,13 @@ void Placement::place(std::span<const glm::vec3> positions, std::span<const glm:
 
 glm::vec3 Placement::position(const glm::vec3& p) const {
   glm::vec3 placed;
-  place({&p, 1}, {}, &placed, nullptr);
+  place({&p, 1}, {}, {&placed, 1}, {});
   return placed;
 }
 
 glm::vec3 Placement::normal(const glm::vec3& n) const {
   glm::vec3 placed;
-  place({}, {&n, 1}, nullptr, &placed);
+  place({}, {&n, 1}, {}, {&placed, 1});
   return placed;
 }
 
@@ -190,9 +190,8 @@ std::vector<glm::mat4> world_matrices(const std::vector<Node>& nodes) {
 
 void place_vertices(const Node& node, const Placement& now, const RestPose& rest, MeshData& mesh) {
   const std::size_t first = node.first_vertex, last = first + node.vertices;
-  now.place(std::span(rest.positions).subspan(first, node.vertices),
-            std::span(rest.normals).subspan(first, node.vertices), mesh.positions.data() + first,
-            mesh.normals.data() + first);
+  const auto of_node = [&](auto& of_all) { return std::span(of_all).subspan(first, node.vertices); };
+  now.place(of_node(rest.positions), of_node(rest.normals), of_node(mesh.positions), of_node(mesh.normals));
   if (mesh.tangents.empty()) return;
   for (std::size_t v = first; v < last; ++v) mesh.tangents[v] = now.tangent(rest.tangents[v]);
 }

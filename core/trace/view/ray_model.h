@@ -24,8 +24,8 @@ class RayModel {
   [[nodiscard]] glm::dvec3 exact_direction(int x, int y) const;
   // Sets the rays of the tile at `corner`, whose pixels are set, `bits` bits of them across.
   void fill(glm::ivec2 corner, int bits, RayQueue& rays) const;
-  // What textures are averaged over near the pixel. `side`: of a sample's share of its pixel. None for the
-  // caller's rays, whose neighbours are unknown.
+  // The part of a surface over which textures are averaged, near the pixel. `side`: of a sample's share of
+  // its pixel. None for the caller's rays, whose neighbours are unknown.
   [[nodiscard]] Footprint footprint(glm::ivec2 pixel, float side) const;
   // Whether all rays begin at the camera.
   [[nodiscard]] bool has_one_eye() const { return !view_.rays; }

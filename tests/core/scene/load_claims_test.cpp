@@ -1,5 +1,5 @@
-// What a glTF file claims and does not have: memory beyond the limit, images, chunks and members that are not
-// there, pipes in place of files.
+// glTF files that are not what they claim: they need memory beyond the limit, name images, chunks and members
+// that are not there, or pipes in place of files.
 #include <spng.h>
 #include <sys/stat.h>
 

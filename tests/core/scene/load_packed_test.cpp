@@ -1,4 +1,4 @@
-// What glTF packs: data URIs, chunks, Draco, meshopt, instances.
+// glTF files with packed data: data URIs, chunks, Draco, meshopt, instances.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wpedantic"
