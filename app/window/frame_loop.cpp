@@ -46,8 +46,7 @@ FrameRequest FrameLoop::next_request() {
   FrameRequest next = model_.request();
   if (!newest_ || !same_view(*newest_, next)) sample_ = 0;
   if (model_.gathers())
-    next.view = at_sample(next.view, std::min(sample_, most_samples() - 1), next.settings.pixel_filter,
-                          next.settings.denoise);
+    next.view = at_sample(next.view, std::min(sample_, most_samples() - 1), next.settings.pixel_filter);
   return next;
 }
 

@@ -94,7 +94,7 @@ bool sends_lights(const Settings& settings, const Scene& scene) {
 
 void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean) {
   for (int k = 0; k < request.settings.spp; ++k) {
-    request.view = at_sample(request.view, k, request.settings.pixel_filter, request.settings.denoise);
+    request.view = at_sample(request.view, k, request.settings.pixel_filter);
     if (mean) request.left_out = mean->finished_;
     if (request.left_out && std::ranges::count(*request.left_out, 0) == 0) break;
     renderer.submit(request);

@@ -221,7 +221,7 @@ void expect_shown_samples_filtered(Sequence sequence, const std::vector<int>& co
   Image<glm::vec4> sum(kSize), mean(kSize), shown;
   Renderer renderer(engine, {[&](Frame& frame) { frame.read_color(shown); }, {}});
   for (int k = 0; k < 8; ++k) {
-    request.view = at_sample(request.view, k, PixelFilter::box, true);
+    request.view = at_sample(request.view, k);
     renderer.submit(request);
     renderer.drain();
     for (std::size_t i = 0; i < sum.pixels().size(); ++i) sum[i] += shown[i];

@@ -274,6 +274,7 @@ TEST_F(EditingTest, PartsAreHiddenAndShownAlone) {
   click(75, rows[0]);
   xdo(at(700, 500));
   EXPECT_TRUE(picture_becomes("opened.png"));
+  pause_ms(500);       // changes within 0.4 s are one step of the history
   click(40, rows[1]);  // its tick
   EXPECT_TRUE(picture_becomes_other("opened.png"));
   settle("hidden.png");

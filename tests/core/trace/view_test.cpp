@@ -101,32 +101,44 @@ TEST(PixelFilter, TheBoxIsEvenAndTheWindowIsBlackmansAndHarris) {
   }
 }
 
-// The filter's samples: the pixel's centre is the first one and the mean of them, however few they are.
-TEST(PixelFilter, BalancedSamplesHaveTheCentreAsTheirMean) {
+// So outlines stay where they are, however few the samples.
+TEST(PixelFilter, TheCentreIsTheMean) {
   for (const PixelFilter filter : {PixelFilter::box, PixelFilter::blackman_harris}) {
-    EXPECT_EQ(balanced_jitter_of(0, filter), glm::vec2(0.0f));
-    glm::dvec2 sum(0.0), usual(0.0);
+    glm::dvec2 sum(0.0);
     for (int k = 0; k < 4096; ++k) {
-      const glm::vec2 at = balanced_jitter_of(k, filter);
-      ASSERT_LE(std::max(std::abs(at.x), std::abs(at.y)), filter == PixelFilter::box ? 0.6f : 1.6f) << k;
-      sum += glm::dvec2(at);
-      usual += glm::dvec2(jitter_of(k, filter));
-      if (k >= 3 && ((k + 1) & k) == 0) {
-        EXPECT_LT(glm::length(sum), 1e-5 * (k + 1)) << k + 1 << " samples";
-      }
-      if (k == 3) {
-        EXPECT_GT(glm::length(usual) / 4.0, 0.1) << "what balances";
+      sum += glm::dvec2(jitter_of(k, filter));
+      const int samples = k + 1;
+      if (samples == 4 || (samples >= 8 && samples % 2 == 0)) {
+        EXPECT_LT(glm::length(sum), 1e-5 * samples) << samples << " samples";
       }
     }
   }
 }
 
-// Outlines: the share of a pixel that an edge covers, by the filter's few samples, is nearer to its area than
-// by the usual ones.
-TEST(PixelFilter, BalancedSamplesFindOutlines) {
-  const auto error = [](int samples, auto place) {
+TEST(LensPoints, AreEvenOnTheDiscAndTheMiddleIsTheirMean) {
+  EXPECT_EQ(lens_point_of(0), glm::vec2(0.0f));
+  constexpr int kSamples = 4096;
+  glm::dvec2 sum(0.0);
+  int in_half = 0, in_quarter = 0;
+  for (int k = 0; k < kSamples; ++k) {
+    const glm::vec2 at = lens_point_of(k);
+    ASSERT_LE(glm::length(at), 1.0f) << k;
+    sum += glm::dvec2(at);
+    if (k >= 3 && k % 2 == 1) {
+      EXPECT_LT(glm::length(sum), 1e-5 * (k + 1)) << k + 1 << " samples";
+    }
+    in_half += glm::dot(at, at) < 0.5f ? 1 : 0;
+    in_quarter += at.x > 0.0f && at.y > 0.0f ? 1 : 0;
+  }
+  EXPECT_NEAR(in_half, kSamples / 2, kSamples / 100);
+  EXPECT_NEAR(in_quarter, kSamples / 4, kSamples / 100);
+}
+
+// Outlines: the error of the share of a pixel that an edge covers, beside that of as many random points.
+TEST(PixelFilter, FewSamplesFindOutlines) {
+  const auto error = [](int samples) {
     constexpr int kAngles = 48, kOffsets = 32, kSide = 48;
-    double squares = 0.0;
+    double squares = 0.0, random = 0.0;
     for (int a = 0; a < kAngles; ++a)
       for (int o = 0; o < kOffsets; ++o) {
         const double angle = 2.0 * 3.14159265358979 * a / kAngles, offset = (o + 0.5) / kOffsets * 1.4 - 0.7;
@@ -136,16 +148,18 @@ TEST(PixelFilter, BalancedSamplesFindOutlines) {
         double area = 0.0, found = 0.0;
         for (int i = 0; i < kSide * kSide; ++i)
           area += covers((i % kSide + 0.5) / kSide - 0.5, (i / kSide + 0.5) / kSide - 0.5);
-        for (int k = 0; k < samples; ++k)
-          found += covers(static_cast<double>(place(k).x), static_cast<double>(place(k).y));
-        squares += std::pow(area / (kSide * kSide) - found / samples, 2);
+        area /= kSide * kSide;
+        for (int k = 0; k < samples; ++k) {
+          const glm::dvec2 at(jitter_of(k));
+          found += covers(at.x, at.y);
+        }
+        squares += std::pow(area - found / samples, 2);
+        random += area * (1.0 - area) / samples;
       }
-    return std::sqrt(squares / (kAngles * kOffsets));
+    return std::sqrt(squares / random);
   };
-  for (const int samples : {4, 8, 16})
-    EXPECT_LT(error(samples, [](int k) { return balanced_jitter_of(k); }),
-              0.7 * error(samples, [](int k) { return jitter_of(k); }))
-        << samples;
+  for (const int samples : {4, 8, 10, 12, 14, 16, 24, 32, 64})
+    EXPECT_LT(error(samples), samples < 16 ? 0.6 : 0.45) << samples;
 }
 
 // An edge between two pixels: sharp by the box, the window's area on either side of it by the other.
