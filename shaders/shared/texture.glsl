@@ -73,8 +73,8 @@ SHARED vec4 sample_point(TextureParams use, vec2 uv, bool is_color) {
 const float kMostTaps = 8.0f;
 const float kLongestFootprint = 1.0e18f;  // In texels. Beyond it, its square is not a finite number.
 
-// The mean over a pixel's footprint: levels by the shorter side of its footprint, several taps along the longer
-// one (as the hardware's anisotropic filter: McCormack et al. 1999).
+// The mean over a pixel's footprint: several taps along its longer side, of levels by the distance between taps
+// (as the hardware's anisotropic filter: McCormack et al. 1999).
 SHARED vec4 sample_texture(TextureParams use, TexturePoint point, bool is_color) {
   vec2 x = point.change_x * vec2(use.size);
   vec2 y = point.change_y * vec2(use.size);

@@ -62,25 +62,24 @@ glm::dvec2 place_in_window(int k) {
   return {place_of_share(at.x), place_of_share(at.y)};
 }
 
-// Of samples 1 to 3 and 4 to 7, which are no pairs, the window's mean is not the centre.
 glm::dvec2 mean_in_window(int first, int end) {
   glm::dvec2 sum(0.0);
   for (int i = first; i < end; ++i) sum += place_in_window(i);
   return sum / as_double(end - first);
 }
 
-glm::dvec2 place_of(int k, PixelFilter filter) {
-  if (k == 0) return glm::dvec2(0.0);
-  if (filter == PixelFilter::box) return place_in_box(k);
-  const glm::dvec2 at = place_in_window(k);
-  if (k < 4) return at - mean_in_window(1, 4);
-  return k < 8 ? at - mean_in_window(4, 8) : at;
-}
-
 }  // namespace
 
 glm::vec2 jitter_of(int k, PixelFilter filter) {
-  return glm::vec2(place_of(k, filter));
+  if (k == 0) return glm::vec2(0.0f);
+  if (filter == PixelFilter::box) return glm::vec2(place_in_box(k));
+  glm::dvec2 at = place_in_window(k);
+  // The first seven are no pairs: the window moves the mean of 1 to 3, and of 4 to 7, away from the centre.
+  if (k < 4)
+    at -= mean_in_window(1, 4);
+  else if (k < 8)
+    at -= mean_in_window(4, 8);
+  return glm::vec2(at);
 }
 
 glm::vec2 lens_point_of(int k) {
