@@ -86,7 +86,7 @@ TEST_F(OpeningTest, CancelKeepsWhatIsShown) {
                   folder_)
           .exit_code,
       0);
-  open("cornell.gltf", "--mode raster --spp 1");
+  open("cornell.gltf", "--mode raster --spp 1 --threads 1");  // so that a tree takes long enough to click
   // The button is at the left, below one line of words or two. One command does it all: between two, a tree
   // could be built.
   const auto cancel_after = [this](const std::string& pressed, int rounds) {
