@@ -40,6 +40,9 @@ struct Native : VectorLanes {
         _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&kPackOrder<1>[bits(m)])));
     return NativeInt(_mm256_permutevar8x32_epi32(__m256i(a), order));
   }
+  static NativeInt permuted(NativeInt a, NativeInt order) {
+    return NativeInt(_mm256_permutevar8x32_epi32(__m256i(a), __m256i(order)));
+  }
 
   static NativeFloat load_rows(const float* const* rows) {
     return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(rows[0])), _mm_load_ps(rows[4]), 1);

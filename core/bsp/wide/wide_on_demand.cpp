@@ -20,13 +20,14 @@ std::size_t enough_rays(const BspTree& tree) {
 }
 
 // From which distance of neighbours on the wide tree is faster than packets, measured on trees of 1,000 to a
-// million triangles (docs/measurements.md): the larger the tree, the less of it is in the caches. Rays in
-// no order part in every tree.
+// million triangles (docs/measurements.md): the larger the tree, the less of it is in the caches; packets of
+// 16 rays share more than those of eight. Rays in no order part in every tree.
 float distance_apart(const BspTree& tree, Isa isa) {
   const float triangles = as_float(tree.triangles.size());
   const float triangle_size =
       std::sqrt(2.0f * tree.exact_bounds.half_area() / triangles);  // of the box's sides
-  const float sizes = (isa == Isa::avx512 ? 2.5f : 1.25f) * std::pow(1e6f / triangles, 0.7f);
+  const float at_a_million = isa == Isa::avx512 ? 0.6f : isa == Isa::avx2 ? 0.3f : 1.25f;
+  const float sizes = at_a_million * std::pow(1e6f / triangles, 0.7f);
   return std::min(sizes * triangle_size, 0.2f * tree.exact_bounds.diagonal());
 }
 

@@ -1,0 +1,160 @@
+// Part of walk/wide.h: the nodes and leaves that a ray has still to visit. No branch depends on how many
+// children of a node the ray meets, nor on which is the nearest: a branch that the processor guesses wrong
+// costs more than sorting all eight.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+
+#include "core/bsp/wide/wide_tree.h"
+
+namespace pinocchio::PINOCCHIO_LANES {
+namespace {
+
+// A number for each child of a node, in registers of kLanes.
+struct OfChildren {
+  static constexpr int kLanes = kWidth <= 4 ? 4 : WideNode::kChildren;
+  static constexpr int kParts = WideNode::kChildren / kLanes;
+  using Part [[gnu::vector_size(4 * kLanes), gnu::may_alias]] = std::int32_t;
+  using Stored [[gnu::aligned(4), gnu::may_alias]] = Part;
+  Part part[kParts];
+
+  void load(const std::uint32_t* from) {
+    for (int p = 0; p < kParts; ++p) part[p] = reinterpret_cast<const Stored*>(from)[p];
+  }
+  template <class Number>
+  void store(Number* to) const {
+    for (int p = 0; p < kParts; ++p) reinterpret_cast<Stored*>(to)[p] = part[p];
+  }
+};
+
+// Compares each number with that whose index differs in the bits of kBy: the larger gets the lower index.
+template <int kBy, int... kLane>
+inline void exchange(OfChildren& a, std::integer_sequence<int, kLane...>) {
+  using Part = OfChildren::Part;
+  constexpr int kOfParts = kBy / OfChildren::kLanes, kOfLanes = kBy % OfChildren::kLanes;
+  for (int p = 0; p < OfChildren::kParts; ++p) {
+    const int q = p ^ kOfParts;
+    if (p > q) continue;
+    const Part other = a.part[q];
+    const Part beside = __builtin_shufflevector(other, other, (kLane ^ kOfLanes)...);
+    const Part least = a.part[p] < beside ? a.part[p] : beside;
+    const Part most = a.part[p] < beside ? beside : a.part[p];
+    if constexpr (kOfParts == 0) {
+      a.part[p] = __builtin_shufflevector(
+          most, least, (kLane < (kLane ^ kOfLanes) ? kLane : kLane + OfChildren::kLanes)...);
+    } else {
+      a.part[p] = most;
+      a.part[q] = __builtin_shufflevector(least, least, (kLane ^ kOfLanes)...);
+    }
+  }
+}
+
+// The largest first, by a sorting network.
+[[gnu::always_inline]] inline void sort(OfChildren& a) {
+  constexpr std::make_integer_sequence<int, OfChildren::kLanes> lanes;
+  exchange<1>(a, lanes);
+  exchange<3>(a, lanes);
+  exchange<1>(a, lanes);
+  exchange<7>(a, lanes);
+  exchange<2>(a, lanes);
+  exchange<1>(a, lanes);
+}
+
+// Stores the numbers of `from` in the order of the indices that are the lowest three bits of `order`.
+template <class N = Native>
+[[gnu::always_inline]] inline void store_permuted(std::uint32_t* to, const std::uint32_t* from,
+                                                  const OfChildren& order) {
+  if constexpr (requires { N::permuted(NativeInt{}, NativeInt{}); }) {
+    OfChildren a;
+    a.load(from);
+    a.part[0] = OfChildren::Part(N::permuted(NativeInt(a.part[0]), NativeInt(order.part[0])));
+    a.store(to);
+  } else {
+    std::uint32_t index[WideNode::kChildren];
+    order.store(index);
+#pragma GCC unroll 8
+    for (int i = 0; i < WideNode::kChildren; ++i) to[i] = from[index[i] % WideNode::kChildren];
+  }
+}
+
+// The last is next.
+class WideWaiting {
+ public:
+  // The root alone.
+  void begin() {
+    last_ = 1;
+    at_[0] = at_[1] = 0;
+    t_[1] = 0.0f;
+  }
+
+  [[nodiscard]] bool is_empty() const { return last_ == 0; }
+  // As WideNode::child.
+  [[nodiscard]] std::uint32_t pop() { return at_[last_--]; }
+  // What pop() gives next; the root where nothing is left.
+  [[nodiscard]] std::uint32_t next() const { return at_[last_]; }
+
+  // Children of which a node has kWidth from number `from` on, in any order.
+  [[gnu::always_inline]] inline void push(const std::uint32_t* child, int from, Float near, Mask met) {
+    store_packed(t_ + last_ + 1, near, met);
+    store_packed(at_ + last_ + 1, Int::load(child + from), met);
+    last_ += __builtin_popcount(met.bits());
+  }
+
+  // Children by where the ray enters them, the nearest as the next.
+  class Sorted {
+   public:
+    void add(int from, Float near, Mask met) {
+      const Int key = (bits_of(near) & Int(kDistance)) | Int::load(kNumbers + from);
+      select(met, key, Int(kNone)).store(keys_ + from);
+      count_ += __builtin_popcount(met.bits());
+    }
+
+   private:
+    friend class WideWaiting;
+    // A key is a distance's bits, the lowest three replaced by the child's number.
+    static constexpr std::uint32_t kDistance = 0x7ffffff8u;
+    static constexpr std::uint32_t kNone = ~0u;  // as a signed number less than any key
+    alignas(kCacheLine) static constexpr std::uint32_t kNumbers[] = {0, 1, 2, 3, 4, 5, 6, 7};
+    alignas(kCacheLine) std::uint32_t keys_[WideNode::kChildren];
+    int count_ = 0;
+  };
+  [[gnu::always_inline]] inline void push(const std::uint32_t* child, const Sorted& children) {
+    OfChildren key;
+    key.load(children.keys_);
+    sort(key);
+    store_permuted(at_ + last_ + 1, child, key);
+    for (OfChildren::Part& part : key.part) part &= static_cast<std::int32_t>(Sorted::kDistance);
+    key.store(t_ + last_ + 1);
+    last_ += children.count_;
+  }
+
+  // Forgets what the ray enters beyond t.
+  void drop_beyond(float t) {
+    int kept = 0;
+    for (int i = 1; i <= last_; ++i) {
+      t_[kept + 1] = t_[i];
+      at_[kept + 1] = at_[i];
+      kept += t_[i] <= t ? 1 : 0;
+    }
+    last_ = kept;
+  }
+
+  void take(const WideWaiting& from) {
+    last_ = from.last_;
+    for (int i = 0; i <= last_; ++i) {
+      t_[i] = from.t_[i];
+      at_[i] = from.at_[i];
+    }
+  }
+
+ private:
+  // A push writes up to eight, however many of them it keeps.
+  static constexpr int kMost = (WideNode::kChildren - 1) * WideTree::kMostDepth + 1 + WideNode::kChildren;
+  int last_;
+  float t_[1 + kMost];  // where the ray enters it
+  std::uint32_t at_[1 + kMost];
+};
+
+}  // namespace
+}  // namespace pinocchio::PINOCCHIO_LANES
