@@ -55,7 +55,10 @@ class FilteredTest {
     t = filter.t;
     if (filter.doubtful.bits() == 0) [[likely]]
       return filter.inside;
-    return settle(tri.id, filter.doubtful, filter.inside, t);
+    Float exact_t = filter.t;
+    const Mask inside = settle(tri.id, filter.doubtful, filter.inside, exact_t);
+    t = exact_t;
+    return inside;
   }
 
  private:
