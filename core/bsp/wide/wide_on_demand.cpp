@@ -20,8 +20,9 @@ std::size_t enough_rays(const BspTree& tree) {
 }
 
 // From which distance of neighbours on the wide tree is faster than packets, measured on trees of 1,000 to a
-// million triangles (docs/measurements.md): the larger the tree, the less of it is in the caches; packets of
-// 16 rays share more than those of eight. Rays in no order part in every tree.
+// million triangles (docs/measurements.md): the larger the tree, the less of it is in the caches. With four
+// lanes the walk is no faster than in its first form, for which that was measured. Rays in no order part in
+// every tree.
 float distance_apart(const BspTree& tree, Isa isa) {
   const float triangles = as_float(tree.triangles.size());
   const float triangle_size =

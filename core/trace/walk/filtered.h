@@ -55,7 +55,7 @@ class FilteredTest {
     t = filter.t;
     if (filter.doubtful.bits() == 0) [[likely]]
       return filter.inside;
-    Float exact_t = filter.t;
+    Float exact_t = filter.t;  // t itself stays in a register
     const Mask inside = settle(tri.id, filter.doubtful, filter.inside, exact_t);
     t = exact_t;
     return inside;

@@ -123,8 +123,8 @@ class WideWalk {
   }
 
  private:
-  // Measured: 8 against 1, 4 and 12 (docs/measurements/kernel-kept.csv).
-  static constexpr int kInterleaved = 8;
+  // Measured: 16 against 8 and 12 (docs/measurements/kernel-kept.csv).
+  static constexpr int kInterleaved = 16;
   // Widens an interval's end for the rounding of its begin, too: more than kLate / kEarly.
   static constexpr float kLatest = 1.0f + 3.0f * 0x1p-21f;
 
@@ -160,14 +160,14 @@ class WideWalk {
     return false;
   }
 
-  // Not inlined, so that the loop about it keeps more in registers: 2 to 3 % of the time.
+  // Not inlined, so that the loop around it keeps more in registers: 3 % of the time.
   template <class Make, class Done>
   [[gnu::noinline]] bool start_next(Walker& walker, Make& make, Done& done) {
     done(walker.i, walker.found);
     return start(walker, make, done);
   }
 
-  // Visits a node or a leaf; false: the ray needs no other.
+  // Visits a node or a leaf; false: nothing is left, or the ray needs no more.
   [[gnu::always_inline]] inline bool step(Walker& walker) const {
     if (walker.waiting.is_empty()) return false;
     const std::uint32_t at = walker.waiting.pop();
@@ -176,11 +176,11 @@ class WideWalk {
     return true;
   }
 
-  // The children that the ray meets wait.
+  // Adds the children that the ray meets to what waits.
   [[gnu::always_inline]] inline void enter_children(Walker& walker, const WideNode& node) const {
     const float* const planes = &node.planes[0][0][0];
     const WideRay& ray = walker.ray;
-    WideWaiting::Sorted sorted;
+    WideWaiting::Distances distances;
 #pragma GCC unroll 2
     for (int from = 0; from < WideNode::kChildren; from += kWidth) {
       Float near(0.0f), far(walker.found.t_best);
@@ -194,11 +194,11 @@ class WideWalk {
       }
       const Mask met = near <= far * Float(kLatest);
       if constexpr (Found::kNearestFirst)
-        sorted.add(from, near, met);
+        distances.set(from, near, met);
       else
-        walker.waiting.push(node.child, from, near, met);
+        walker.waiting.push(node.child, from, met);
     }
-    if constexpr (Found::kNearestFirst) walker.waiting.push(node.child, sorted);
+    if constexpr (Found::kNearestFirst) walker.waiting.push(node.child, distances);
   }
 
   // Whether the ray needs no other triangle.
@@ -216,11 +216,12 @@ class WideWalk {
         if (walker.found.add(distance[lane], leaf.id[from + lane])) return true;
       }
     }
-    if (met_any) walker.waiting.drop_beyond(walker.found.t_best * kLatest);
+    if (Found::kNearestFirst && met_any) walker.waiting.drop_beyond(walker.found.t_best * kLatest);
     return false;
   }
 
-  // Without a branch, which the processor would have to guess before it knows `at`.
+  // Without a branch, which the processor would have to guess before it knows `at`. A leaf's six cache lines
+  // for a node's four, too: faster (docs/measurements/kernel-kept.csv).
   [[gnu::always_inline]] inline void fetch_ahead(std::uint32_t at) const {
     const std::uintptr_t if_leaf = at & WideNode::kLeaf ? ~std::uintptr_t{0} : 0;
     const std::uintptr_t index = at & ~WideNode::kLeaf;

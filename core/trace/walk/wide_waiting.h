@@ -1,12 +1,14 @@
-// Part of walk/wide.h: the nodes and leaves that a ray has still to visit. No branch depends on how many
-// children of a node the ray meets, nor on which is the nearest: a branch that the processor guesses wrong
+// Part of walk/wide.h: the nodes and leaves that a ray has still to visit. Adding a node's children has no
+// branch on how many of them the ray meets, nor on which is the nearest: one that the processor guesses wrong
 // costs more than sorting all eight.
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include "core/bsp/wide/wide_tree.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -28,7 +30,8 @@ struct OfChildren {
   }
 };
 
-// Compares each number with that whose index differs in the bits of kBy: the larger gets the lower index.
+// Compares each number with that whose index differs in exactly the bits of kBy: the larger gets the lower
+// index.
 template <int kBy, int... kLane>
 inline void exchange(OfChildren& a, std::integer_sequence<int, kLane...>) {
   using Part = OfChildren::Part;
@@ -61,11 +64,11 @@ inline void exchange(OfChildren& a, std::integer_sequence<int, kLane...>) {
   exchange<1>(a, lanes);
 }
 
-// Stores the numbers of `from` in the order of the indices that are the lowest three bits of `order`.
+// Stores from[i] for each number of `order`, where i is its lowest three bits.
 template <class N = Native>
 [[gnu::always_inline]] inline void store_permuted(std::uint32_t* to, const std::uint32_t* from,
                                                   const OfChildren& order) {
-  if constexpr (requires { N::permuted(NativeInt{}, NativeInt{}); }) {
+  if constexpr (OfChildren::kParts == 1 && requires { N::permuted(NativeInt{}, NativeInt{}); }) {
     OfChildren a;
     a.load(from);
     a.part[0] = OfChildren::Part(N::permuted(NativeInt(a.part[0]), NativeInt(order.part[0])));
@@ -78,7 +81,7 @@ template <class N = Native>
   }
 }
 
-// The last is next.
+// The last that was added is visited next.
 class WideWaiting {
  public:
   // The root alone.
@@ -94,42 +97,43 @@ class WideWaiting {
   // What pop() gives next; the root where nothing is left.
   [[nodiscard]] std::uint32_t next() const { return at_[last_]; }
 
-  // Children of which a node has kWidth from number `from` on, in any order.
-  [[gnu::always_inline]] inline void push(const std::uint32_t* child, int from, Float near, Mask met) {
-    store_packed(t_ + last_ + 1, near, met);
-    store_packed(at_ + last_ + 1, Int::load(child + from), met);
+  // Adds those of the kWidth children from number `first` on that are met, unsorted and without their t.
+  [[gnu::always_inline]] inline void push(const std::uint32_t* child, int first, Mask met) {
+    store_packed(at_ + last_ + 1, Int::load(child + first), met);
     last_ += __builtin_popcount(met.bits());
   }
 
-  // Children by where the ray enters them, the nearest as the next.
-  class Sorted {
+  // Where a ray enters a node's children.
+  class Distances {
    public:
-    void add(int from, Float near, Mask met) {
-      const Int key = (bits_of(near) & Int(kDistance)) | Int::load(kNumbers + from);
-      select(met, key, Int(kNone)).store(keys_ + from);
+    void set(int first, Float near, Mask met) {
+      const Int key = (bits_of(near) & Int(kDistance)) | Int::load(kNumbers + first);
+      select(met, key, Int(kNone)).store(keys_ + first);
       count_ += __builtin_popcount(met.bits());
     }
 
    private:
     friend class WideWaiting;
-    // A key is a distance's bits, the lowest three replaced by the child's number.
+    // A key is a distance's bits, the lowest three replaced by the child's number. Without them the distance
+    // is smaller: nothing is dropped too early.
     static constexpr std::uint32_t kDistance = 0x7ffffff8u;
     static constexpr std::uint32_t kNone = ~0u;  // as a signed number less than any key
     alignas(kCacheLine) static constexpr std::uint32_t kNumbers[] = {0, 1, 2, 3, 4, 5, 6, 7};
     alignas(kCacheLine) std::uint32_t keys_[WideNode::kChildren];
     int count_ = 0;
   };
-  [[gnu::always_inline]] inline void push(const std::uint32_t* child, const Sorted& children) {
+  // Adds the children that are met, sorted: the nearest is visited next.
+  [[gnu::always_inline]] inline void push(const std::uint32_t* child, const Distances& children) {
     OfChildren key;
     key.load(children.keys_);
     sort(key);
     store_permuted(at_ + last_ + 1, child, key);
-    for (OfChildren::Part& part : key.part) part &= static_cast<std::int32_t>(Sorted::kDistance);
+    for (OfChildren::Part& part : key.part) part &= static_cast<std::int32_t>(Distances::kDistance);
     key.store(t_ + last_ + 1);
     last_ += children.count_;
   }
 
-  // Forgets what the ray enters beyond t.
+  // Forgets what the ray enters beyond t. Children that were added unsorted have no t.
   void drop_beyond(float t) {
     int kept = 0;
     for (int i = 1; i <= last_; ++i) {
@@ -142,15 +146,13 @@ class WideWaiting {
 
   void take(const WideWaiting& from) {
     last_ = from.last_;
-    for (int i = 0; i <= last_; ++i) {
-      t_[i] = from.t_[i];
-      at_[i] = from.at_[i];
-    }
+    std::memcpy(t_, from.t_, as_size(last_ + 1) * sizeof(*t_));
+    std::memcpy(at_, from.at_, as_size(last_ + 1) * sizeof(*at_));
   }
 
  private:
-  // A push writes up to eight, however many of them it keeps.
-  static constexpr int kMost = (WideNode::kChildren - 1) * WideTree::kMostDepth + 1 + WideNode::kChildren;
+  // The last push writes eight: 7 × (depth - 1) + 8.
+  static constexpr int kMost = (WideNode::kChildren - 1) * WideTree::kMostDepth + 1;
   int last_;
   float t_[1 + kMost];  // where the ray enters it
   std::uint32_t at_[1 + kMost];
