@@ -38,7 +38,7 @@ struct Native : VectorLanes {
   static NativeInt packed(NativeInt a, NativeMask m) {
     const __m256i order =
         _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&kPackOrder<1>[bits(m)])));
-    return NativeInt(_mm256_permutevar8x32_epi32(__m256i(a), order));
+    return permuted(a, NativeInt(order));
   }
   static NativeInt permuted(NativeInt a, NativeInt order) {
     return NativeInt(_mm256_permutevar8x32_epi32(__m256i(a), __m256i(order)));

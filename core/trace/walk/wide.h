@@ -198,7 +198,7 @@ class WideWalk {
       else
         walker.waiting.push(node.child, from, met);
     }
-    if constexpr (Found::kNearestFirst) walker.waiting.push(node.child, distances);
+    if constexpr (Found::kNearestFirst) walker.waiting.push_sorted(node.child, distances);
   }
 
   // Whether the ray needs no other triangle.
@@ -220,8 +220,8 @@ class WideWalk {
     return false;
   }
 
-  // Without a branch, which the processor would have to guess before it knows `at`. A leaf's six cache lines
-  // for a node's four, too: faster (docs/measurements/kernel-kept.csv).
+  // There is no branch on `at`: the processor would have to guess it. A node has four cache lines and a leaf
+  // six; always fetching six is faster (docs/measurements/kernel-kept.csv).
   [[gnu::always_inline]] inline void fetch_ahead(std::uint32_t at) const {
     const std::uintptr_t if_leaf = at & WideNode::kLeaf ? ~std::uintptr_t{0} : 0;
     const std::uintptr_t index = at & ~WideNode::kLeaf;

@@ -94,7 +94,7 @@ class WideWaiting {
   [[nodiscard]] bool is_empty() const { return last_ == 0; }
   // As WideNode::child.
   [[nodiscard]] std::uint32_t pop() { return at_[last_--]; }
-  // What pop() gives next; the root where nothing is left.
+  // What the next pop() returns; where nothing is left, the root.
   [[nodiscard]] std::uint32_t next() const { return at_[last_]; }
 
   // Adds those of the kWidth children from number `first` on that are met, unsorted and without their t.
@@ -103,7 +103,7 @@ class WideWaiting {
     last_ += __builtin_popcount(met.bits());
   }
 
-  // Where a ray enters a node's children.
+  // At which t a ray enters each child of a node.
   class Distances {
    public:
     void set(int first, Float near, Mask met) {
@@ -123,14 +123,14 @@ class WideWaiting {
     int count_ = 0;
   };
   // Adds the children that are met, sorted: the nearest is visited next.
-  [[gnu::always_inline]] inline void push(const std::uint32_t* child, const Distances& children) {
+  [[gnu::always_inline]] inline void push_sorted(const std::uint32_t* child, const Distances& distances) {
     OfChildren key;
-    key.load(children.keys_);
+    key.load(distances.keys_);
     sort(key);
     store_permuted(at_ + last_ + 1, child, key);
     for (OfChildren::Part& part : key.part) part &= static_cast<std::int32_t>(Distances::kDistance);
     key.store(t_ + last_ + 1);
-    last_ += children.count_;
+    last_ += distances.count_;
   }
 
   // Forgets what the ray enters beyond t. Children that were added unsorted have no t.
