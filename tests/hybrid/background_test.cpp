@@ -136,6 +136,30 @@ TEST(BackgroundPicture, EveryWayAndTheReferenceBlurTheSame) {
   }
 }
 
+// A pane that lets nearly all light pass shows what is behind the scene nearly as it is.
+TEST(BackgroundPicture, ABlurIsSeenThroughPanes) {
+  Scene without = under_half_a_sky();
+  Scene with = plates(true);
+  without.cameras = with.cameras;
+  with.environment = without.environment;
+  with.environment_rotation_deg = without.environment_rotation_deg;
+  MeshEdit(with)->maps[0].alpha_factor = 0.004f;
+  for (Way way : ways()) {
+    if (way.name == "raster") continue;  // it does not see through panes
+    way.settings.background_blur = 0.5f;
+    const FrameResult through = drawn(with, way.settings, "environment", 1),
+                      free = drawn(without, way.settings, "environment", 1);
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < free.ids.pixels().size(); ++i) {
+      if (free.ids[i] != kNoTriangle || through.ids[i] == kNoTriangle) continue;
+      ++seen;
+      const glm::vec3 apart = glm::abs(glm::vec3(through.color[i] - free.color[i]));
+      ASSERT_LT(std::max({apart.r, apart.g, apart.b}), 0.005f + static_cast<float>(way.most)) << way.name;
+    }
+    EXPECT_GT(seen, 100u) << way.name;
+  }
+}
+
 // Parallel rays see one place of the sky; pixels beyond a fisheye's half turn see none.
 TEST(BackgroundPicture, EveryProjectionSeesTheReferencesSky) {
   Scene scene = under_half_a_sky();

@@ -169,9 +169,13 @@ template <bool kSampled>
   // Where the two normals disagree there may be no way through although Fresnel has a share for it.
   const Float share = select(through == Vec(zero), one, fresnel_dielectric(cos_in, eta));
   mirror_share = Vec(share);
-  if (thin.bits() != 0) mirror_share = select(thin, schlick(m.specular, m.grazing, cos_in), mirror_share);
+  const Mask thin_wall = thin & (through != Vec(zero));
+  if (thin_wall.bits() != 0)
+    mirror_share = select(thin_wall, schlick(m.specular, m.grazing, cos_in), mirror_share);
+  // Rays through glass find what shadow rays do only where these pass glass.
+  const Float found_through_glass = bounce.options->glass_shadows == GlassShadows::tinted ? s.density : zero;
   follow(s, through, own * ((one - largest(mirror_share)) * left) * m.transmittance, pixel, lanes, least,
-         *bounce.refracted, media ? &media->beyond : nullptr, s.density);
+         *bounce.refracted, media ? &media->beyond : nullptr, found_through_glass);
   follow(s, direction, own * mirror_share * left, pixel, mirrors, least, *bounce.mirrored,
          media ? &media->here : nullptr);
 }

@@ -63,7 +63,7 @@ void TileTracer::follow_mirrors(int bounce_count) {
       find_hits(queue, generation, of_camera);
       if (of_camera)
         see_background(queue);
-      else if (plan_->environment && (bounce_count == 0 || &queue != &rays_[kStraight]))
+      else if (plan_->environment)
         plan_->job.tracer.steps().add_environment(*plan_->environment, plan_->further.environment != nullptr,
                                                   queue, &reflected_[0].x);
       plan_->job.tracer.steps().keep_hits(queue);

@@ -145,7 +145,8 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   if (j.options.catcher_height && (o.color || o.caught_in_reflection))
     catcher.emplace(j.scene.mesh->bounds(), *j.options.catcher_height);
   straight_apart = blends && (passed_backs.any() || o.coverage || catcher ||
-                              j.options.background.kind != Background::Kind::environment);
+                              j.options.background.kind != Background::Kind::environment ||
+                              j.options.background_blur > 0.0f);
   further.scene = SceneArrays::of(*job.scene.mesh, maps);
   further.offset = job.tracer.offset();
   further.options = &job.options;
