@@ -32,6 +32,7 @@ inline constexpr PixelFormat kRgb9E5{GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9
 inline constexpr PixelFormat kR32F{GL_R32F, GL_RED, GL_FLOAT, 4};
 inline constexpr PixelFormat kR16F{GL_R16F, GL_RED, GL_HALF_FLOAT, 2};
 inline constexpr PixelFormat kRg16F{GL_RG16F, GL_RG, GL_HALF_FLOAT, 4};
+inline constexpr PixelFormat kRgb16F{GL_RGB16F, GL_RGB, GL_HALF_FLOAT, 6};
 inline constexpr PixelFormat kRgba16F{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
 inline constexpr PixelFormat kRgb32F{GL_RGB32F, GL_RGB, GL_FLOAT, 12};
 inline constexpr PixelFormat kRgba32F{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};

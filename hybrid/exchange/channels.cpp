@@ -57,14 +57,19 @@ void encode_mask(CpuImages& from, S s, Workers&, Writable to) {
                   reinterpret_cast<std::uint8_t*>(to.data()) + as_size(y) * width * bytes);
 }
 
-// In tiles it ends in a texture of whole tiles, and an index travels before them.
+ChannelTexture packed(ReflectionFormat format, glm::ivec2 pixels) {
+  const PackedTexels packed = packed_texels(format, pixels);
+  return whole(packed.texel, packed.size);
+}
+
+// With tiles: an index travels first, then the lit tiles; the texture is padded to whole tiles.
 ChannelTexture reflection_texture(S s, glm::ivec2 size) {
   const glm::ivec2 samples = scaled_size(size, s.reflection_scale);
-  const Packing& pack = packing(s.reflection);
-  if (!s.tiles) return whole(pack.texel, {samples.x * pack.texels, samples.y});
-  const glm::ivec2 tiles = tile_columns_rows(samples), padded = tiles * kReflectionTile;
-  return {.texel = pack.texel,
-          .texels = {padded.x * pack.texels, padded.y},
+  if (!s.tiles) return packed(s.reflection, samples);
+  const glm::ivec2 tiles = tile_columns_rows(samples);
+  const PackedTexels padded = packed_texels(s.reflection, tiles * kReflectionTile);
+  return {.texel = padded.texel,
+          .texels = padded.size,
           .most_bytes = most_tile_bytes(samples, s.reflection),
           .tiles = tiles};
 }
@@ -110,7 +115,7 @@ constexpr std::array<ChannelRow, kChannelNames.size()> kRows{{
      .encode = encode_reflection},
     {.channel = Channel::picture,
      .travels = [](S s) { return raster(s) && !on_gpu(s); },
-     .texture = [](S, glm::ivec2 size) { return whole(gl::kR8, component_size(size)); },
+     .texture = [](S, glm::ivec2 size) { return packed(ReflectionFormat::rgb8, size); },
      .encode = [](CpuImages& from, S, Workers& workers,
                   Writable to) { pack_srgb(from.unpacked, workers, to); }},
 }};

@@ -14,9 +14,10 @@ namespace pinocchio {
 namespace {
 
 constexpr float kLargestHalf = 65504.0f;
+constexpr int kComponents = 3;
 
 std::uint16_t half_bits(float value) {
-  return half(std::min(value, kLargestHalf)).bits();
+  return half(std::clamp(value, -kLargestHalf, kLargestHalf)).bits();
 }
 
 float from_half_bits(std::uint16_t bits) {
@@ -67,12 +68,14 @@ void pack_floats(std::span<const glm::vec3> radiance, std::byte* to) {
 
 // By ReflectionFormat.
 constexpr std::array<Packing, kReflectionFormatNames.size()> kPackings{{
-    {gl::kR8, 0, false, nullptr},
-    {gl::kR8, kComponents, true, pack_srgb8},
-    {gl::kRgb9E5, 1, false, pack_rgb9e5},
-    {gl::kR16F, kComponents, false, pack_halves},
-    {gl::kR32F, kComponents, false, pack_floats},
+    {gl::kRgb8, gl::kR8, false, nullptr},
+    {gl::kRgb8, gl::kR8, true, pack_srgb8},
+    {gl::kRgb9E5, gl::kRgb9E5, false, pack_rgb9e5},
+    {gl::kRgb16F, gl::kR16F, false, pack_halves},
+    {gl::kRgb32F, gl::kR32F, false, pack_floats},
 }};
+
+constexpr int kWidestTexture = 16384;  // that every OpenGL 4.1 and later has
 
 }  // namespace
 
@@ -122,7 +125,13 @@ const Packing& packing(ReflectionFormat format) {
 
 int bytes_per_pixel(ReflectionFormat format) {
   const Packing& pack = packing(format);
-  return pack.texels * as_int(pack.texel.bytes);
+  return pack.pack ? as_int(pack.pixel.bytes) : 0;
+}
+
+PackedTexels packed_texels(ReflectionFormat format, glm::ivec2 pixels) {
+  const Packing& pack = packing(format);
+  if (pack.component == pack.pixel || kComponents * pixels.x > kWidestTexture) return {pack.pixel, pixels};
+  return {pack.component, {kComponents * pixels.x, pixels.y}};
 }
 
 void pack_radiance(const Image<glm::vec3>& radiance, ReflectionFormat format, Workers& workers,

@@ -29,18 +29,25 @@ void unpack_gbuffer_ids(std::span<const std::byte> bytes, Image<std::uint32_t>& 
 // From ids of 32 bits to the GPU's.
 void pack_ids(const Image<std::uint32_t>& ids, int id_bits, std::span<std::byte> bytes);
 
-// How light is packed on its way. RGB is one component a texel, three texels a pixel: a driver may have no
-// three-component format of its own and convert, at ten times a copy's cost. rgb9e5 is one texel.
-inline constexpr int kComponents = 3;
+// How light is packed on its way.
 struct Packing {
-  gl::PixelFormat texel;
-  int texels;    // a pixel, side by side; 0: nothing travels
-  bool is_srgb;  // the values have the sRGB curve, which the shader removes
-  void (*pack)(std::span<const glm::vec3> radiance, std::byte* to);
+  gl::PixelFormat pixel;      // one texel a pixel
+  gl::PixelFormat component;  // where RGB may be three texels a pixel, each of them
+  bool is_srgb;               // the values have the sRGB curve, which the shader removes
+  void (*pack)(std::span<const glm::vec3> radiance, std::byte* to);  // null: nothing travels
 };
 [[nodiscard]] const Packing& packing(ReflectionFormat format);
-[[nodiscard]] inline glm::ivec2 component_size(glm::ivec2 size) {
-  return {kComponents * size.x, size.y};
+
+// The texels of a packed picture. Where its width allows, RGB is three texels a pixel, side by side: a driver
+// may have no three-component format of its own and convert, at ten times a copy's cost.
+struct PackedTexels {
+  gl::PixelFormat texel;
+  glm::ivec2 size;
+};
+[[nodiscard]] PackedTexels packed_texels(ReflectionFormat format, glm::ivec2 pixels);
+// How many of them a pixel has.
+[[nodiscard]] inline int texels_a_pixel(const gl::Texture& packed) {
+  return packed.format().format == GL_RED ? 3 : 1;
 }
 
 // Linear light in that format, rounded to nearest; too bright values are clipped.

@@ -102,7 +102,9 @@ void ShadingPasses::gbuffer(const Inputs& inputs, const gl::Framebuffer& target)
 
 void ShadingPasses::show(const gl::Texture& finished, const Inputs& inputs, const gl::Framebuffer& target) {
   gl::begin_fullscreen_pass(target);
-  const gl::Program& p = program("show.frag", definitions_of(inputs));
+  Definitions definitions = definitions_of(inputs);
+  definitions.push_back("FINISHED_TEXELS " + std::to_string(texels_a_pixel(finished)));
+  const gl::Program& p = program("show.frag", definitions);
   p.use();
   p.set("finished", bind(p, inputs), finished);
   triangle_.draw();
@@ -161,7 +163,7 @@ ShadingPasses::Definitions ShadingPasses::definitions_of(const Inputs& inputs, c
   if (reflection.texture) {
     definitions.emplace_back("HAS_REFLECTION");
     define("REFLECTION_SCALE", reflection.scale);
-    define("REFLECTION_TEXELS", packing(reflection.format).texels);
+    define("REFLECTION_TEXELS", texels_a_pixel(*reflection.texture));
     if (packing(reflection.format).is_srgb) definitions.emplace_back("REFLECTION_IS_SRGB");
     if (reflection.index) define("REFLECTION_TILE", kReflectionTile);
   }

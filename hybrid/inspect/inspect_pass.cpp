@@ -161,8 +161,8 @@ ShadingPasses::Traced InspectPass::send_from_cpu(const FrameSlot& frame, Layer v
   }
   if (view == Layer::reflection) {
     constexpr ReflectionFormat kFormat = ReflectionFormat::full;  // the CPU's
-    send(std::as_bytes(reflection.pixels()), component_size(reflection.size()), packing(kFormat).texel,
-         reflection_);
+    const PackedTexels packed = packed_texels(kFormat, reflection.size());
+    send(std::as_bytes(reflection.pixels()), packed.size, packed.texel, reflection_);
     traced.reflection = {&reflection_.texture, nullptr, kFormat, 1};
   }
   return traced;
