@@ -64,7 +64,7 @@ Camera camera_for_whole_scene(const Scene& scene) {
   if (bounds.empty()) bounds.add(glm::vec3(0.0f));
   // At least what single precision distinguishes from the centre: eye and target have to differ. Scenes of
   // molecules are in units of 1e-10.
-  const float least = std::max(1e-4f * glm::length(bounds.center()), 1e-12f);
+  const float least = std::max(1e-6f * glm::length(bounds.center()), 1e-12f);
   const float radius = std::max(0.5f * bounds.diagonal(), least);
   Camera camera;
   camera.name = "whole scene";

@@ -63,7 +63,8 @@ bool FrameSlot::is_tracing() const {
 
 bool FrameSlot::reprojects_to(const FrameSlot& newer) const {
   const Settings &a = request.settings, &b = newer.request.settings;
-  return answered && a.composite == b.composite && request.scene == newer.request.scene &&
+  const bool is_one_of_many = b.spp > 1 || newer.request.view.sample > 0;  // places in the pixel differ
+  return answered && !is_one_of_many && a.composite == b.composite && request.scene == newer.request.scene &&
          view.parallel == newer.view.parallel && a.mask_bits == b.mask_bits && a.reflection == b.reflection &&
          a.id_bits == b.id_bits && options.catcher_height == newer.options.catcher_height;
 }

@@ -128,7 +128,7 @@ Camera studio_camera(const Scene& scene, glm::ivec2 size) {
   const glm::dvec3 center(bounds.center());
   // At least what single precision distinguishes from the centre: eye and target have to differ. Scenes of
   // molecules are in units of 1e-10.
-  const double least = std::max(1e-4 * glm::length(center), 1e-12);
+  const double least = std::max(1e-6 * glm::length(center), 1e-12);
   Camera camera;
   camera.name = "studio";
   const double portrait = std::max(1.0, 1.0 * size.y / size.x);  // the field of view is the picture's height

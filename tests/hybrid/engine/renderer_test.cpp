@@ -285,6 +285,18 @@ TEST_P(RendererTest, SchedulesMayFollowEachOther) {
   }
 }
 
+// The samples of a picture lie in other places of their pixels: each has its own answer.
+TEST_P(RendererTest, SamplesOfAPictureAreNotReprojected) {
+  const Scene scene = load_or_die(source_path("scenes/two-lights"));
+  DrawRequest many{.settings = by({{"design", "1"}}), .size = {80, 60}};
+  many.settings.spp = 4;
+  many.settings.visibility = Processor::gpu;
+  many.settings.exchange = Exchange::sync;
+  const FrameResult truth = draw_one(scene, many);
+  many.settings.exchange = Exchange::reproject;
+  EXPECT_TRUE(same(draw_one(scene, many).color, truth.color));
+}
+
 // What the tracing thread answered for the CPU's own picture is not on the GPU to be warped.
 TEST_P(RendererTest, ReprojectsNoAnswerThatTheCpuKept) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
