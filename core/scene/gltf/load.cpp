@@ -176,8 +176,14 @@ class SceneReader {
   }
 
   void add_light(const Json& json, const GltfNode& node, const glm::mat4& world) {
-    const Light light = light_of(json, node, world);
+    Light light = light_of(json, node, world);
     const std::string where = "light '" + light.name + "'";
+    const glm::vec3 shines = light.intensity * light.color;
+    if (std::min({shines.r, shines.g, shines.b}) < 0.0f) {
+      warn(where, "has a negative intensity or colour", "what is below 0 is dark");
+      light.intensity = std::max(light.intensity, 0.0f);
+      light.color = glm::max(light.color, 0.0f);
+    }
     if (!is_light_type(text_member(&json, "type")))
       warn(where, "its type is not one of glTF's", "it is drawn as a point light");
     if (can_shine(light)) {

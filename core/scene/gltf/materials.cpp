@@ -13,10 +13,15 @@ namespace {
 
 using Json = nlohmann::json;
 
+template <class T>
+T within(const T& value, const GltfRange& range) {
+  return glm::clamp(value, T(range.least), T(range.most));
+}
+
 // pbrMetallicRoughness.baseColorFactor: red, green, blue, alpha.
 glm::vec4 base_color_of(const Json& json) {
   const std::vector<double> c = numbers_member(member(&json, "pbrMetallicRoughness"), "baseColorFactor");
-  return c.size() == 4 ? glm::vec4(c[0], c[1], c[2], c[3]) : glm::vec4(1.0f);
+  return within(c.size() == 4 ? glm::vec4(c[0], c[1], c[2], c[3]) : glm::vec4(1.0f), kGltfFactor);
 }
 
 // KHR_materials_pbrSpecularGlossiness: a matt part with a mirroring layer of any colour. glTF's dielectric
@@ -25,10 +30,12 @@ GltfSurface specular_glossiness(const Json& json) {
   constexpr float kUsualF0 = 0.04f;
   GltfSurface s;
   const std::vector<double> diffuse = numbers_member(&json, "diffuseFactor");
-  if (diffuse.size() == 4) s.base_color = glm::vec3(diffuse[0], diffuse[1], diffuse[2]);
+  if (diffuse.size() == 4) s.base_color = within(glm::vec3(diffuse[0], diffuse[1], diffuse[2]), kGltfFactor);
   s.metallic = 0.0f;
-  s.roughness = 1.0f - glm::clamp(value_member<float>(&json, "glossinessFactor").value_or(1.0f), 0.0f, 1.0f);
-  s.specular_color = value_member<glm::vec3>(&json, "specularFactor").value_or(glm::vec3(1.0f)) / kUsualF0;
+  s.roughness = 1.0f - within(value_member<float>(&json, "glossinessFactor").value_or(1.0f), kGltfShare);
+  s.specular_color =
+      within(value_member<glm::vec3>(&json, "specularFactor").value_or(glm::vec3(1.0f)), kGltfFactor) /
+      kUsualF0;
   return s;
 }
 
@@ -38,9 +45,9 @@ GltfSurface surface_of(const Json& json, Material& material) {
   s.base_color = glm::vec3(base_color_of(json));
   if (const Json* other = extension(&json, kSpecularGlossiness)) s = specular_glossiness(*other);
   if (const std::vector<double> e = numbers_member(&json, "emissiveFactor"); e.size() == 3)
-    s.emissive = glm::vec3(e[0], e[1], e[2]);
-  s.emissive *= value_member<float>(extension(&json, "KHR_materials_emissive_strength"), "emissiveStrength")
-                    .value_or(1.0f);
+    s.emissive = within(glm::vec3(e[0], e[1], e[2]), kGltfFactor);
+  const Json* const emission = extension(&json, "KHR_materials_emissive_strength");
+  s.emissive *= within(value_member<float>(emission, "emissiveStrength").value_or(1.0f), kGltfFactor);
   s.volume = value_member<float>(extension(&json, "KHR_materials_volume"), "thicknessFactor") > 0.0f;
   s.unlit = extension(&json, "KHR_materials_unlit") != nullptr;
   return s;

@@ -17,6 +17,12 @@ bool is_number(std::string_view word) {
   return word.find_first_not_of("+-.0123456789eE") == std::string_view::npos;
 }
 
+bool has_negative(std::string_view numbers) {
+  for (std::string_view word; !(word = next_word(numbers)).empty();)
+    if (is_number(word) && word.front() == '-' && word.find_first_of("123456789") != word.npos) return true;
+  return false;
+}
+
 // A number, or an option such as -halo before one.
 bool is_value(std::string_view word) {
   return !word.empty() && (is_number(word) || (word.size() > 1 && word.front() == '-'));
@@ -45,6 +51,8 @@ void add_lost_mtl_features(const std::filesystem::path& file, std::string_view t
         while (is_number(word = next_word(rest)) && !word.empty()) line = rest;
         if (word == "on" || word == "off" || word.size() == 1) line = rest;
       }
+    } else if (keyword.starts_with('K') && has_negative(line)) {
+      warnings.add({file.string(), where, std::string(keyword) + " is negative", "it is read as 0"});
     } else if (const std::string_view value = next_word(line); value == "spectral" || value == "xyz") {
       warnings.add(
           {file.string(), where, "a colour as '" + std::string(value) + "' is left out", "it is black"});

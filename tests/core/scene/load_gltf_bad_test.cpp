@@ -1,5 +1,6 @@
 #include <set>
 
+#include "core/math/finite.h"
 #include "tests/support/gltf.h"
 
 namespace pinocchio {
@@ -80,6 +81,44 @@ TEST(LoadGltfBad, NumbersThatAreTakenForNoneAreWarnings) {
   // Some exporters write indices so.
   EXPECT_EQ(warning_with("/nodes/0/mesh", 0.0, true), "");
   EXPECT_EQ(warning_with("/meshes/0/primitives/0/indices", 1.0, true), "");
+}
+
+TEST(LoadGltfBad, NumbersOutOfRangeAreClampedWithAWarning) {
+  struct Case {
+    const char* pointer;
+    Json value;
+    std::string message;
+  };
+  const std::string material = "/materials/0/", within = "; the nearest value within is used";
+  for (const auto& [pointer, value, message] :
+       {Case{"pbrMetallicRoughness/metallicFactor", 1e300, "metallicFactor is not within 0 and 1"},
+        Case{"pbrMetallicRoughness/roughnessFactor", -0.5, "roughnessFactor is not within 0 and 1"},
+        Case{"pbrMetallicRoughness/baseColorFactor",
+             {1, -1, 1, 1},
+             "baseColorFactor is not within 0 and 1e+06"},
+        Case{"emissiveFactor", {0, 0, 1e300}, "emissiveFactor is not within 0 and 1e+06"},
+        Case{"extensions/KHR_materials_emissive_strength/emissiveStrength", -5,
+             "emissiveStrength is not within 0 and 1e+06"},
+        Case{"extensions/KHR_materials_transmission/transmissionFactor", 5,
+             "transmissionFactor is not within 0 and 1"},
+        Case{"extensions/KHR_materials_ior/ior", -1, "ior is not within 0 and 1e+06"},
+        Case{"extras/pinocchio/phong/kd", {-1, 0, 0}, "kd is not within 0 and 1e+06"}}) {
+    Json json = triangle_json();
+    json["meshes"][0]["primitives"][0]["material"] = 0;
+    json[Json::json_pointer(material + pointer)] = value;
+    Warnings warnings;
+    const Expected<Scene> scene = load(json, &warnings);
+    ASSERT_TRUE(scene) << pointer;
+    ASSERT_FALSE(warnings.empty()) << pointer;
+    EXPECT_NE(warnings.begin()->message().find("material 0: its " + message + within), std::string::npos)
+        << warnings.begin()->message();
+    const Material& m = scene->mesh->material_of(0);
+    for (const glm::vec3& part : {m.diffuse, m.specular, m.emission, m.transmittance}) {
+      EXPECT_TRUE(is_finite(part)) << pointer;
+      EXPECT_GE(std::min({part.r, part.g, part.b}), 0.0f) << pointer;
+    }
+    EXPECT_GE(m.ior, 0.0f);
+  }
 }
 
 TEST(LoadGltfBad, WhatTheFileDoesNotHoldIsNotBelieved) {

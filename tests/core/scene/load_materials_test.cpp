@@ -1,5 +1,6 @@
 // What files say of textures and alpha arrives in materials' maps.
 #include "core/scene/obj/mtl.h"
+#include "core/scene/obj/mtl_features.h"
 #include "tests/support/gltf.h"
 
 namespace pinocchio {
@@ -121,6 +122,15 @@ TEST(LoadMaterials, MtlStatements) {
   EXPECT_EQ(all[0].metallic, 0.75f);
   EXPECT_EQ(all[1].dissolve, 0.5f);  // d counts, not its opposite
   EXPECT_EQ(all[1].map_kd.file, "1.png");
+}
+
+TEST(LoadMaterials, MtlColoursAreNotNegative) {
+  EXPECT_EQ(read_materials("newmtl odd\nKd -1 0.5 -0.25\n").at(0).kd, glm::vec3(0, 0.5f, 0));
+  Warnings warnings;
+  add_lost_mtl_features("odd.mtl", "newmtl odd\nKd -1 0.5 -0.25\nKs 0 -0 0\n", warnings);
+  ASSERT_EQ(std::distance(warnings.begin(), warnings.end()), 1);
+  EXPECT_NE(warnings.begin()->message().find("line 2: Kd is negative; it is read as 0"), std::string::npos)
+      << warnings.begin()->message();
 }
 
 TEST(LoadMaterials, MtlNamesMayHoldBlanksAndNumbers) {

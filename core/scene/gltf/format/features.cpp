@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "core/base/decimal.h"
 #include "core/scene/gltf/format/constants.h"
 #include "core/scene/gltf/format/json.h"
 #include "core/scene/gltf/format/material_table.h"
@@ -83,7 +84,14 @@ bool is_alpha_mode(const Json& json) {
 struct TypedMember {
   const char* at;  // JSON pointer in a material
   bool (*fits)(const Json&);
+  GltfRange range = kGltfFactor;  // of its numbers
 };
+
+bool is_in_range(const Json& numbers, const GltfRange& range) {
+  if (numbers.is_array())
+    return std::ranges::all_of(numbers, [&](const Json& each) { return is_in_range(each, range); });
+  return !numbers.is_number() || range.has(numbers.get<float>());
+}
 
 constexpr TypedMember kTypedMembers[] = {
     {"/pbrMetallicRoughness", is_object},
@@ -92,12 +100,12 @@ constexpr TypedMember kTypedMembers[] = {
     {"/extensions/KHR_materials_emissive_strength/emissiveStrength", is_number},
     {"/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor", are_numbers<4>},
     {"/extensions/KHR_materials_pbrSpecularGlossiness/specularFactor", are_numbers<3>},
-    {"/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", is_number},
+    {"/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", is_number, kGltfShare},
     {"/alphaMode", is_alpha_mode},
     {"/alphaCutoff", is_number},
     {"/doubleSided", is_boolean},
     {"/extensions", is_object},
-    {"/extensions/KHR_materials_volume/thicknessFactor", is_number},
+    {"/extensions/KHR_materials_volume/thicknessFactor", is_number, {0.0f, 3e38f}},
 };
 
 std::string last_name(std::string_view pointer) {
@@ -185,15 +193,30 @@ class FeatureAudit {
     const auto wrong_type = [&](std::string_view at) {
       lost(where, "its " + last_name(at) + " has the wrong type", "the default is used");
     };
-    for (const TypedMember& row : kTypedMembers)
-      if (const Json* value = find_at(&material, row.at); value && !row.fits(*value)) wrong_type(row.at);
+    const auto clamped = [&](std::string_view at, const GltfRange& range) {
+      lost(
+          where,
+          "its " + last_name(at) + " is not within " + shortest(range.least) + " and " + shortest(range.most),
+          "the nearest value within is used");
+    };
+    for (const TypedMember& row : kTypedMembers) {
+      const Json* const value = find_at(&material, row.at);
+      if (!value) continue;
+      if (!row.fits(*value))
+        wrong_type(row.at);
+      else if (!is_in_range(*value, row.range))
+        clamped(row.at, row.range);
+    }
     Material unused;
     GltfSurface surface;
     for (const std::span<const GltfParameter> rows : {std::span<const GltfParameter>(kPhongParameters),
                                                       std::span<const GltfParameter>(kSurfaceParameters),
                                                       std::span<const GltfParameter>(kVolumeParameters)})
-      for (const GltfParameter& row : rows)
-        if (!read_gltf_parameter(material, row, unused, surface)) wrong_type(row.at);
+      for (const GltfParameter& row : rows) {
+        const GltfValue value = read_gltf_parameter(material, row, unused, surface);
+        if (value == GltfValue::wrong_type) wrong_type(row.at);
+        if (value == GltfValue::clamped) clamped(row.at, row.range);
+      }
     for (const GltfTexture& row : kGltfTextures) {
       const Json* const texture = find_at(&material, row.at);
       if (!texture) continue;

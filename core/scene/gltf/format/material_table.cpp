@@ -36,15 +36,20 @@ bool is_in_material_table(std::string_view extension) {
   return has(kSurfaceParameters) || has(kVolumeParameters) || has(kGltfTextures);
 }
 
-bool read_gltf_parameter(const nlohmann::json& json, const GltfParameter& row, Material& material,
-                         GltfSurface& surface) {
+GltfValue read_gltf_parameter(const nlohmann::json& json, const GltfParameter& row, Material& material,
+                              GltfSurface& surface) {
   const nlohmann::json* const given = find_at(&json, row.at);
-  if (!given) return true;
+  if (!given) return GltfValue::fits;
   return std::visit(
       [&]<class T, class C>(T C::*member) {
         const std::optional<T> value = value_of<T>(*given);
-        if (value) owner_of<C>(material, surface).*member = *value;
-        return value.has_value();
+        if (!value) return GltfValue::wrong_type;
+        T& to = owner_of<C>(material, surface).*member;
+        if constexpr (std::is_same_v<T, bool>)
+          to = *value;
+        else
+          to = glm::clamp(*value, T(row.range.least), T(row.range.most));
+        return to == *value ? GltfValue::fits : GltfValue::clamped;
       },
       row.member);
 }

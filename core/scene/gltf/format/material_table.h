@@ -12,12 +12,21 @@
 
 namespace pinocchio {
 
+// Numbers beyond are clamped, with a warning.
+struct GltfRange {
+  float least = 0.0f, most = 1e6f;
+
+  [[nodiscard]] bool has(float value) const { return value >= least && value <= most; }
+};
+inline constexpr GltfRange kGltfShare{0.0f, 1.0f}, kGltfFactor{};
+
 // A member of GltfSurface, of its layers, or of Material. The default is the member's.
 struct GltfParameter {
   const char* at;  // JSON pointer in a material
   std::variant<float Material::*, glm::vec3 Material::*, bool Material::*, float GltfSurface::*,
                glm::vec3 GltfSurface::*, float GltfLayers::*, glm::vec3 GltfLayers::*>
       member;
+  GltfRange range = kGltfFactor;
 };
 
 // Phong's, which only materials without metallic-roughness have.
@@ -35,22 +44,22 @@ inline constexpr GltfParameter kPhongParameters[] = {
 };
 
 inline constexpr GltfParameter kSurfaceParameters[] = {
-    {"/pbrMetallicRoughness/metallicFactor", &GltfSurface::metallic},
-    {"/pbrMetallicRoughness/roughnessFactor", &GltfSurface::roughness},
+    {"/pbrMetallicRoughness/metallicFactor", &GltfSurface::metallic, kGltfShare},
+    {"/pbrMetallicRoughness/roughnessFactor", &GltfSurface::roughness, kGltfShare},
     {"/extensions/KHR_materials_ior/ior", &GltfSurface::ior},
-    {"/extensions/KHR_materials_specular/specularFactor", &GltfSurface::specular},
+    {"/extensions/KHR_materials_specular/specularFactor", &GltfSurface::specular, kGltfShare},
     {"/extensions/KHR_materials_specular/specularColorFactor", &GltfSurface::specular_color},
-    {"/extensions/KHR_materials_transmission/transmissionFactor", &GltfSurface::transmission},
-    {"/extensions/KHR_materials_clearcoat/clearcoatFactor", &GltfLayers::coat},
-    {"/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", &GltfLayers::coat_roughness},
-    {"/extensions/KHR_materials_sheen/sheenColorFactor", &GltfLayers::sheen},
-    {"/extensions/KHR_materials_sheen/sheenRoughnessFactor", &GltfLayers::sheen_roughness},
+    {"/extensions/KHR_materials_transmission/transmissionFactor", &GltfSurface::transmission, kGltfShare},
+    {"/extensions/KHR_materials_clearcoat/clearcoatFactor", &GltfLayers::coat, kGltfShare},
+    {"/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", &GltfLayers::coat_roughness, kGltfShare},
+    {"/extensions/KHR_materials_sheen/sheenColorFactor", &GltfLayers::sheen, kGltfShare},
+    {"/extensions/KHR_materials_sheen/sheenRoughnessFactor", &GltfLayers::sheen_roughness, kGltfShare},
 };
 
 // The inside of a body, which both kinds of materials may have.
 inline constexpr GltfParameter kVolumeParameters[] = {
-    {"/extensions/KHR_materials_volume/attenuationColor", &Material::attenuation_color},
-    {"/extensions/KHR_materials_volume/attenuationDistance", &Material::attenuation_distance},
+    {"/extensions/KHR_materials_volume/attenuationColor", &Material::attenuation_color, kGltfShare},
+    {"/extensions/KHR_materials_volume/attenuationDistance", &Material::attenuation_distance, {0.0f, 3e38f}},
 };
 
 struct GltfTexture {
@@ -81,9 +90,12 @@ inline constexpr GltfTexture kGltfTextures[] = {
 // Whether some row is part of the extension.
 [[nodiscard]] bool is_in_material_table(std::string_view extension);
 
-// Sets the row's member to the file's value, if there is one. False: that value is not of the member's type.
-bool read_gltf_parameter(const nlohmann::json& json, const GltfParameter& row, Material& material,
-                         GltfSurface& surface);
+// Whether the file's value is one of a parameter, or could be used.
+enum class GltfValue { fits, clamped, wrong_type };
+
+// Sets the row's member to the file's value, if there is one.
+GltfValue read_gltf_parameter(const nlohmann::json& json, const GltfParameter& row, Material& material,
+                              GltfSurface& surface);
 
 // Writes the row's member if it differs from `usual`, or from a surface's default.
 void write_gltf_parameter(const GltfParameter& row, const Material& material, const GltfSurface& surface,
