@@ -214,7 +214,7 @@ bool Renderer::Loop::repeat(const FrameRequest& request) {
   return true;
 }
 
-// The first frame of a pose tells what it took.
+// A pose's first frame records what the pose and its trees took.
 void Renderer::Loop::record_pose(FrameSlot& frame) {
   const FrameRequest& request = frame.request;
   const MeshPose* const pose = request.scene.mesh->pose().get();

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/window/camera/framing.h"
+#include "core/math/luminance.h"
 
 namespace pinocchio::app {
 namespace {
@@ -35,8 +36,8 @@ void Pointing::expose() {
   constexpr float kMiddleGrey = 0.18f;
   const std::optional<PixelReport> pixel = inspector_.report(model_, input_.pixel_under_pointer());
   if (!pixel) return model_.messages.hint(kNoTree);
-  const float luminance = glm::dot(pixel->color, glm::vec3(0.2126f, 0.7152f, 0.0722f));  // Rec. 709
-  if (luminance > 0.0f) model_.settings.exposure_ev = std::log2(kMiddleGrey / luminance);
+  if (const float seen = luminance(pixel->color); seen > 0.0f)
+    model_.settings.exposure_ev = std::log2(kMiddleGrey / seen);
 }
 
 }  // namespace pinocchio::app

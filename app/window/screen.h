@@ -26,7 +26,7 @@ class Screen {
   // curve are applied to it.
   void set_picture(const gl::Texture* picture, bool is_light = true);
   [[nodiscard]] bool has_picture() const { return picture_ != nullptr; }
-  // The overlay is drawn at least so many times more, whether or not there is a new picture.
+  // The overlay is drawn at least `times` times more, whether or not there is a new picture.
   void request_redraw(int times = kSettling) { redraws_ = std::max(redraws_, times); }
   [[nodiscard]] int redraws() const { return redraws_; }
   // Whether something changed that does not wait for a frame: panels, exposure, the progress of loading.

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <boost/align/aligned_allocator.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <new>
-#include <utility>
 #include <vector>
 
+#include "core/base/aligned_vector.h"
 #include "core/base/large_memory.h"
 #include "core/bsp/corner_triangle.h"
 #include "core/bsp/node.h"
@@ -15,28 +13,6 @@
 #include "pinocchio/triangle_test.h"
 
 namespace pinocchio {
-
-inline constexpr std::size_t kCacheLine = 64;
-
-// Leaves new elements without values: they are written anyhow, mostly by several threads.
-template <class T>
-struct CacheAllocator : boost::alignment::aligned_allocator<T, kCacheLine> {
-  template <class U>
-  struct rebind {
-    using other = CacheAllocator<U>;
-  };
-  template <class U>
-  void construct(U* at) {
-    ::new (static_cast<void*>(at)) U;
-  }
-  template <class U, class... Values>
-  void construct(U* at, Values&&... values) {
-    ::new (static_cast<void*>(at)) U(std::forward<Values>(values)...);
-  }
-};
-
-template <class T>
-using AlignedVector = std::vector<T, CacheAllocator<T>>;
 
 // Triangles as a test wants them, in the order in which a tree's leaves first refer to them: a leaf's
 // triangles are mostly adjacent, and near those of its neighbours. The second array is for the tests that

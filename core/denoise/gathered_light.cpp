@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/math/luminance.h"
 #include "pinocchio/conversion.h"
 
 namespace pinocchio {
@@ -18,10 +19,6 @@ constexpr float kMostOfLamps = 10.0f;  // times their light without shadows
 constexpr std::array<float, 2> kOfLuminance{8.0f, 2.0f};
 constexpr float kMostLight =
     1e16f;  // that the filter takes: divided by an albedo and squared it stays finite
-
-float luminance(const glm::vec3& rgb) {
-  return 0.2126f * rgb.r + 0.7152f * rgb.g + 0.0722f * rgb.b;  // Rec. 709
-}
 
 // Light that is no number, or beyond all bounds, would spread to other pixels.
 glm::vec3 usable(const glm::vec3& light) {
@@ -148,7 +145,7 @@ void GatheredLight::fill_planes(const Sums& sums, PartOfLight part, Workers& wor
   stride_ = (size_.x + 2 * kDenoiseBorder + kPacket + kPacket - 1) / kPacket * kPacket;
   const std::size_t lines = as_size(size_.y) + 2 * kDenoiseBorder;
   const std::size_t floats = kPlanes * lines * as_size(stride_);
-  // Numbers everywhere: a weight of 0 times none would be none.
+  // No plane may hold NaN: 0 times NaN is NaN.
   if (planes_.size() != floats) planes_.assign(floats, 0.0f);
   std::size_t used = 0;
   for (auto& channel : guides_.normal) channel = plane(used++);

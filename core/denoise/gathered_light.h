@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/bsp/tree.h"
+#include "core/base/aligned_vector.h"
 #include "core/denoise/denoise_steps.h"
 #include "core/denoise/sampled_point.h"
 #include "core/parallel/workers.h"

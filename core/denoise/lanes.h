@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "core/denoise/denoise_steps.h"
+#include "core/math/luminance.h"
 #include "pinocchio/conversion.h"
 #include "pinocchio/ray.h"
 
@@ -34,7 +35,7 @@ inline Float falloff(Float x) {
 }
 
 inline Float luminance(const Float (&rgb)[3]) {
-  return Float(0.2126f) * rgb[0] + Float(0.7152f) * rgb[1] + Float(0.0722f) * rgb[2];  // Rec. 709
+  return Float(kLuminance.r) * rgb[0] + Float(kLuminance.g) * rgb[1] + Float(kLuminance.b) * rgb[2];
 }
 
 // The surface that a packet's pixels see.

@@ -7,8 +7,8 @@
 namespace pinocchio {
 
 // What one sample of a pixel sees, for the filter of sampled light: the surface that its ray meets, or
-// surfaces that are seen in sharp mirrors and through glass, of which the one that shines most tells the
-// place.
+// surfaces that are seen in sharp mirrors and through glass; of several, normal and distance are the
+// brightest one's.
 struct SampledPoint {
   glm::vec3 light{0.0f};  // that was found at random, linear: with noise; without that of `lamp_light`
   // What the surfaces return to the eye of the light around them, which the filter divides the light by: of
@@ -18,8 +18,8 @@ struct SampledPoint {
   glm::vec3 lamp_light{0.0f}, lamp_albedo{0.0f};
   glm::vec3 normal{0.0f};      // world shading normal, unit
   float distance = kInfinity;  // along the path from the eye, scene units; infinite where nothing is hit
-  float guide_albedo = 0.0f;   // luminance of what it returns of an even light
-  float shown = -1.0f;         // the same of what reaches the eye; negative where nothing is hit
+  float guide_albedo = 0.0f;   // luminance of that surface's albedo
+  float shown = -1.0f;         // the same after mirrors and glass; negative where nothing is hit
 };
 
 }  // namespace pinocchio

@@ -17,8 +17,8 @@ struct Stroke {
   std::uint32_t material;
 };
 
-// Chooses the detail for so many points and lines, and claims the memory of their triangles before any is
-// allocated. Errors: there is not enough, or there would be too many triangles.
+// Chooses the detail for that number of points and lines, and claims the memory of their triangles before any
+// is allocated. Errors: there is not enough, or there would be too many triangles.
 [[nodiscard]] Expected<void> take_strokes(const std::string& file, double points, double lines,
                                           Loading& loading);
 

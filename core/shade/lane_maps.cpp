@@ -79,7 +79,7 @@ LaneTexture lane_texture(const Mesh& mesh, const TextureUse& use, bool is_color,
 
 LaneMapsOf::LaneMapsOf(const Mesh& mesh) {
   if (mesh.maps.empty()) return;
-  // Nothing moves when one more is added: others point at it.
+  // Reserved in full, as LaneMaps keep pointers into these vectors.
   const std::size_t most = mesh.maps.size() * kMapUses.size();
   places_.reserve(most);
   textures_.reserve(most);

@@ -17,7 +17,7 @@ struct GpuSpan {
   double begin_s = 0.0, end_s = 0.0;
 };
 
-// The nanoseconds from one time stamp to another of a clock that has so many bits, of which the highest may
+// The nanoseconds from one time stamp to another of a clock of `bits` bits, of which the highest may
 // have overflowed in between. Negative: `to` is earlier.
 [[nodiscard]] std::int64_t ns_between(GLuint64 from, GLuint64 to, int bits);
 

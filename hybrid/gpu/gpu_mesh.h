@@ -37,7 +37,7 @@ class GpuMesh {
   // How many of the triangles have backs that the camera sees through.
   enum class Share { none, some, all };
   [[nodiscard]] Share passed_backs(Backfaces backfaces) const { return passed_backs_[as_size(backfaces)]; }
-  // Sets what tells which those are (shaders/visibility.frag), as bind() sets the rest.
+  // Binds the table of them for shaders/visibility.frag, as bind() binds the rest.
   int bind_backs(const gl::Program& program, int first_unit) const;
 
   [[nodiscard]] const GpuMaps& maps() const { return maps_; }

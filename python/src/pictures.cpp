@@ -22,6 +22,15 @@ Camera camera_of(const Scene& scene, const CameraChoice& choice) {
   return scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front();
 }
 
+// Which of the scene's cameras it is; none: the camera is not the scene's.
+std::optional<std::size_t> number_of(const Scene& scene, const CameraChoice& choice) {
+  if (std::holds_alternative<Camera>(choice)) return std::nullopt;
+  if (const int* index = std::get_if<int>(&choice)) return as_size(*index);
+  if (const auto* name = std::get_if<std::string>(&choice))
+    return as_size(find_camera(scene, *name) - scene.cameras.data());
+  return scene.cameras.empty() ? std::nullopt : std::optional<std::size_t>(0);
+}
+
 Scene lit(const Scene& scene, const Camera& camera) {
   Scene copy = scene;
   if (copy.lights.empty()) copy.lights.push_back(default_light(copy, camera));
@@ -96,11 +105,8 @@ Poses poses_of(const Scene& scene, const std::vector<CameraChoice>& choices,
   }
   for (std::size_t i = 0; i < given.size(); ++i) {
     const CameraChoice& choice = choices[choices.size() == 1 ? 0 : i];
-    const Camera camera = camera_of(scene, choice);
-    const auto own = std::ranges::find(scene.cameras, camera);
-    const bool is_own = !std::holds_alternative<Camera>(choice) && own != scene.cameras.end();
-    PosedPicture picture{poses.moves[of_picture[i]], camera};
-    if (is_own) picture.camera = as_size(own - scene.cameras.begin());
+    PosedPicture picture{poses.moves[of_picture[i]], camera_of(scene, choice)};
+    if (const std::optional<std::size_t> own = number_of(scene, choice)) picture.camera = *own;
     poses.pictures.push_back(std::move(picture));
   }
   return poses;

@@ -1,4 +1,7 @@
 """Layers for data sets: ids, motion, coverage, boxes, masks."""
+import base64
+import json
+
 import numpy
 import pinocchio_renderer as pn
 import pytest
@@ -99,6 +102,27 @@ def test_a_camera_of_the_scene_moves_with_its_node(scenes):
     depth = pn.Engine().render_many(scene, [0], (30, 20), outputs=["depth"], poses=[{node: pose}])["depth"][0]
     numpy.testing.assert_array_equal(depth, pn.Engine().render(scene.posed({node: pose}), size=(30, 20)).depth)
     assert (depth != pn.Engine().render(scene, size=(30, 20)).depth).any()
+
+
+def test_of_two_equal_cameras_the_chosen_one_moves_with_its_node(tmp_path):
+    corners = numpy.array([[-1, -1, -4], [1, -1, -4], [0, 1, -4]], "float32").tobytes()
+    attributes = {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1, -1, -4], "max": [1, 1, -4]}
+    gltf = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"uri": "data:;base64," + base64.b64encode(corners).decode(), "byteLength": len(corners)}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(corners)}],
+        "accessors": [attributes],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "cameras": [{"name": "eye", "type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+        "nodes": [{"mesh": 0}, {"name": "left", "camera": 0}, {"name": "right", "camera": 0}],
+        "scenes": [{"nodes": [0, 1, 2]}],
+    }
+    (tmp_path / "two.gltf").write_text(json.dumps(gltf))
+    scene = pn.load_scene(tmp_path / "two.gltf")
+    pose = {"right": moved(0.5, 0, 0)}
+    still, moving = pn.Engine().render_many(scene, [0, 1], (30, 20), outputs=["depth"], poses=[pose, pose])["depth"]
+    numpy.testing.assert_array_equal(still, pn.Engine().render(scene, size=(30, 20)).depth)
+    assert (still != moving).any()
 
 
 def test_poses_that_cannot_be_are_refused(squares):

@@ -19,5 +19,4 @@ const uint kMirrorDimension = 0x8000u;
 const uint kEnvironmentDimension = 0x8001u;
 const uint kDiffuseDimension = 0x8002u;
 const uint kLensDimension = 0x8003u;
-const uint kFilterDimension = 0x8004u;
 const uint kEnvironmentChoiceDimension = 0x8005u;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/window/overlay/parts.h"
+#include "core/math/luminance.h"
 
 namespace pinocchio::app {
 
@@ -24,8 +25,7 @@ void draw_numbers(const Model& model) {
       const glm::vec4& c = light.at(x, y);
       const glm::vec2 share = (glm::vec2(x, y) + 0.5f) / size - model.zoom.corner;
       const glm::vec2 middle = share * model.zoom.factor * window;
-      const float luminance = glm::dot(glm::vec3(c), glm::vec3(0.2126f, 0.7152f, 0.0722f));  // Rec. 709
-      const int level = brighter * luminance > 0.2f ? 0 : 255;
+      const int level = brighter * luminance(glm::vec3(c)) > 0.2f ? 0 : 255;
       for (int i = 0; i < 3; ++i) {
         const std::string text = format("%.3g", c[i]);
         const float width = 0.8f * ImGui::CalcTextSize(text.c_str()).x;

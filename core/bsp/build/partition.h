@@ -26,8 +26,8 @@ struct Halves {
 
 [[nodiscard]] Halves count_halves(std::span<const BuildReference> references, const SplitPlane& plane);
 
-// Writes the references of the children of node `box`, in order, and returns how many. Both arrays hold no
-// less than count_halves says, and one more; `high` may be where `references` are.
+// Writes the references of the children of node `box`, in order, and returns how many. Both arrays
+// have room for one reference more than count_halves says; `high` may be where `references` are.
 Halves partition(const BuildMesh& mesh, std::span<const BuildReference> references, const Bounds& box,
                  const SplitPlane& plane, BuildReference* low, BuildReference* high);
 

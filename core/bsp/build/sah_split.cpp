@@ -15,7 +15,7 @@ constexpr std::size_t kSlabsFrom = 24;
 // With more references the best edge between slabs is taken: searching inside slabs costs more than it gains.
 constexpr std::size_t kExactLimit = 4096;
 
-// Slabs on each axis for so many references: more slabs are more precise and take longer to search.
+// Slabs on each axis for that number of references: more slabs are more precise and take longer to search.
 int slab_count(std::size_t references) {
   if (references < 64) return 16;
   if (references < 128) return 32;

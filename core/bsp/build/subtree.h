@@ -16,7 +16,7 @@ namespace pinocchio {
 struct OpenNode {
   Bounds box;
   int depth = 0;
-  int wasted = 0;      // nodes above that a median rule split in vain
+  int wasted = 0;      // ancestors whose split at the median separated too little
   double share = 1.0;  // of the tree's work, by references; 0: reported
 };
 

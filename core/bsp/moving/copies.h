@@ -30,7 +30,7 @@ class SharedCopies {
 
   // Takes over what another pose of the scene has of the same copies. `differs`: the nodes that have moved.
   void keep(const SharedCopies& before, const std::vector<bool>& differs);
-  // Places those that are not. `for_each(n, body)` calls body(i) for all of [0, n).
+  // Places the copies that have no tree yet. `for_each(n, body)` calls body(i) for all of [0, n).
   using ForEach = std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
   void place(const Scene& scene, const BuildOptions& options, const ForEach& for_each);
 

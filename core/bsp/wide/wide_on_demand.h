@@ -21,11 +21,11 @@ class WideOnDemand {
   // isa: of the packets. threads: for the build; 0: one for each core.
   WideOnDemand(std::shared_ptr<const SceneTrees> trees, Isa isa, int threads);
 
-  // Counts so many rays that part. Null: packets are to trace them. The caller whose rays are enough builds
-  // the tree, while the others go on with packets.
+  // Counts `rays` rays that part. Null: trace them in packets. The call that reaches the limit builds the
+  // tree; other threads use packets meanwhile.
   [[nodiscard]] const WideTree* tree_after(std::size_t rays);
 
-  // How far apart neighbouring rays are at the scene's center where they part, scene units.
+  // The distance between neighbouring rays at the scene's centre from which on they part, scene units.
   [[nodiscard]] float apart() const { return apart_; }
   [[nodiscard]] const glm::vec3& center() const { return center_; }
 

@@ -5,7 +5,7 @@
 
 namespace pinocchio {
 
-// Numbers as numbers of another type, which holds the value as the caller knows. Always inlined: translation
+// Casts between types of numbers; the caller knows that the value fits. Always inlined: translation
 // units for one instruction set must not lend their code to others.
 template <class T>
 [[nodiscard, gnu::always_inline]] constexpr std::size_t as_size(T value) {

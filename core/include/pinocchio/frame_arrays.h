@@ -33,7 +33,6 @@ struct FrameArrays {
   // lights, fewer hold the lowest slots.
   std::size_t mask_bytes = 1;
 
-  [[nodiscard]] bool wants_light() const { return color || mask || reflection; }
   [[nodiscard]] bool wants_surfaces() const { return depth || position || normal || albedo; }
 };
 

@@ -60,7 +60,8 @@ class SceneReader {
       if (!in_range(at.node, file_.nodes)) return file_.error("names node " + which_of(at.node, file_.nodes));
       const auto index = as_size(at.node);
       if (seen[index])
-        return file_.error("reaches node " + std::to_string(at.node) + " twice: nodes are no tree");
+        return file_.error("reaches node " + std::to_string(at.node) +
+                           " twice: it has two parents, or is among its own children");
       seen[index] = true;
       const GltfNode& node = file_.nodes[index];
       const glm::mat4 local = node.parent_from_node(), world = at.world_from_parent * local;

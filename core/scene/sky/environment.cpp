@@ -5,15 +5,12 @@
 #include <glm/gtc/constants.hpp>
 
 #include "core/math/finite.h"
+#include "core/math/luminance.h"
 #include "core/scene/sky/brightness.h"
 #include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
-
-float brightness_of(const glm::vec3& c) {
-  return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f));
-}
 
 // The mean of what bilinear interpolation makes of a texel's area: of it and its neighbours, 1 6 1 each way.
 double mean_light(const Image<glm::vec3>& image, int x, int y) {
@@ -22,7 +19,7 @@ double mean_light(const Image<glm::vec3>& image, int x, int y) {
   for (int j = -1; j <= 1; ++j)
     for (int i = -1; i <= 1; ++i) {
       const double share = (i == 0 ? 0.75 : 0.125) * (j == 0 ? 0.75 : 0.125);
-      sum += share * brightness_of(image.at((x + i + size.x) % size.x, std::clamp(y + j, 0, size.y - 1)));
+      sum += share * luminance(image.at((x + i + size.x) % size.x, std::clamp(y + j, 0, size.y - 1)));
     }
   return sum;
 }
@@ -41,11 +38,11 @@ template <class Words>
 void pack_brightness(const Image<glm::vec3>& image, Words& words) {
   const int width = image.width(), height = image.height();
   float most = 0.0f;
-  for (const glm::vec3& c : image.pixels()) most = std::max(most, brightness_of(c));
+  for (const glm::vec3& c : image.pixels()) most = std::max(most, luminance(c));
   std::vector<std::uint32_t> packed;
   packed.reserve(image.pixels().size());
   for (const glm::vec3& c : image.pixels())
-    packed.push_back(packed_brightness(most > 0.0f ? brightness_of(c) / most : 0.0f));
+    packed.push_back(packed_brightness(most > 0.0f ? luminance(c) / most : 0.0f));
   words.reserve(as_size(width) * (as_size(height) + 1));
   for (int y = 0; y <= height; ++y) {
     const std::uint32_t *const above = &packed[image.index(0, std::max(y - 1, 0))],

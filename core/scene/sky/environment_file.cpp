@@ -26,16 +26,25 @@ Expected<Image<glm::vec3>> read_environment(const std::filesystem::path& file, P
 // Pixels that are not finite would leave blotches, black ones at the sun.
 void repair(const std::filesystem::path& file, Image<glm::vec3>& image, Warnings& warnings) {
   float largest = 0.0f;
-  std::size_t not_numbers = 0, infinite = 0;
+  std::size_t not_numbers = 0, infinite = 0, negative = 0;
   for (const glm::vec3& pixel : image.pixels()) {
-    bool is_infinite = false, is_nan = false;
+    bool is_infinite = false, is_nan = false, is_negative = false;
     for (int c = 0; c < 3; ++c) {
       is_nan |= std::isnan(pixel[c]);
       is_infinite |= std::isinf(pixel[c]);
+      is_negative |= pixel[c] < 0.0f && std::isfinite(pixel[c]);
       if (std::isfinite(pixel[c])) largest = std::max(largest, pixel[c]);
     }
     not_numbers += is_nan ? 1 : 0;
     infinite += is_infinite ? 1 : 0;
+    negative += is_negative ? 1 : 0;
+  }
+  if (negative > 0) {
+    for (glm::vec3& pixel : image.pixels())
+      for (int c = 0; c < 3; ++c)
+        if (pixel[c] < 0.0f && std::isfinite(pixel[c])) pixel[c] = 0.0f;
+    warnings.add(
+        {file.string(), "", std::to_string(negative) + " pixels are negative", "they are read as 0"});
   }
   if (not_numbers + infinite == 0) return;
   for (glm::vec3& pixel : image.pixels())

@@ -75,7 +75,7 @@ class StlReader {
     return Unexpected(InputError{path_.string(), line, what, remedy});
   }
   [[nodiscard]] Expected<void> no_stl() const {
-    return error(0, "is no STL: it neither begins with 'solid' nor has a header of 84 bytes",
+    return error(0, "is not STL: it neither begins with 'solid' nor has a header of 84 bytes",
                  "is the export complete?");
   }
 

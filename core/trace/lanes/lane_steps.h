@@ -82,7 +82,7 @@ struct Bounce {
   glm::uvec2 corner{0};
   std::uint32_t scale = 1, dimension = 0;
   const EnvironmentLight* environment = nullptr;  // its samples light the points; null: none do
-  bool one_candidate = false;  // no choice among directions of the environment: each brings the same light
+  bool one_candidate = false;  // of the environment, not kSkyCandidates: for the shadow catcher
   const EnvironmentLight* prefiltered = nullptr;  // its means light the points; null: none do
   bool lobes = false;  // directions of glossy lobes are sampled; else mirrors are sharp
 
@@ -101,7 +101,7 @@ struct Bounce {
   // that; 0: it is not kept apart.
   std::uint32_t sampled = 0;
   SampledPoint* points = nullptr;  // a tile's pixels: the surfaces, for the filter; null: not wanted
-  bool lights_alone = false;       // other steps have the same rays' surfaces, and light of other lights
+  bool lights_alone = false;       // an earlier step had the surfaces of these rays, and other lights
 
   // True if lights that are too faint get no shadow ray.
   [[nodiscard]] bool cuts_light() const { return visible && options->light_cutoff > 0.0f; }
@@ -139,7 +139,7 @@ struct LaneSteps {
   void (*find_holes)(const Bounce& bounce, const RayQueue& rays, std::uint32_t* holes);
   // The same for the shadow rays of a packet, within the walk.
   PassedSurfaces::InHoles lanes_in_holes;
-  // Moves the rays, which have all hit, behind their triangles. ends: what they go to stays at t = 1. This
+  // Moves the rays, which have all hit, behind their triangles. ends: their light stays at t = 1. This
   // and find_holes read the bounce's scene and offset.
   void (*go_behind)(const Bounce& bounce, bool ends, RayQueue& rays);
   // Takes shadow rays straight on through the surfaces that they met: multiplies their light by what is left

@@ -23,7 +23,7 @@ namespace {
   Vec n = s.n_shading;
   Float alpha = m.ggx_alpha, n_dot_v = base_dot_v;
   if (coated.bits() != 0) {
-    // One number tells which layer, and what is left of it is a number again.
+    // One random number chooses the layer; what is left of it, scaled to [0, 1), is used again.
     const Float chance = coat_chance(m, m.ggx_alpha, base_dot_v);
     const Mask by_coat = coated & (number.x < chance);
     const Float rest = select(by_coat, number.x / chance, (number.x - chance) / (one - chance));

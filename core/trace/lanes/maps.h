@@ -282,7 +282,7 @@ struct MirroringPoints {
   }
 };
 
-// The points that are too rough to mirror, wherever a quick look at the neighbourhood says so.
+// Points around which all texels are too rough to mirror; it may miss some.
 inline Mask surely_rough(const SceneArrays& scene, const LaneMaps& lane_maps, const MapPoints& points,
                          Int triangle, const Vec& weights, Mask lanes) {
   const MaterialMaps& maps = *lane_maps.maps;

@@ -93,7 +93,7 @@ inline void turn_normals_to_viewer(LaneSurface& s, LaneMaterial& m) {
 // The factor on light from all around. Where Phong's coefficients are not a BRDF's, the lights hold their 1 /
 // pi, and other light needs it here.
 inline Float brdf_share(const LaneMaterial& m) {
-  return select(Mask::from_bits(m.brdf), Float(1.0f), Float(0.31830988618f));
+  return select(Mask::from_bits(m.brdf), Float(1.0f), Float(shared::kOneByPi));
 }
 
 }  // namespace

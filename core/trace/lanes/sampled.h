@@ -28,7 +28,7 @@ inline Vec sampled_albedo(const LaneSurface& s, const LaneMaterial& m) {
 inline Vec returned_of_sky(const EnvironmentLight& e, const LaneSurface& s, const LaneMaterial& m,
                            const Vec& albedo, Mask lanes) {
   const glm::vec3& mean = e.prefiltered->irradiance[0];
-  const float unit = 0.31830988618f * e.strength * (0.2126f * mean.x + 0.7152f * mean.y + 0.0722f * mean.z);
+  const float unit = shared::kOneByPi * e.strength * pinocchio::luminance(mean);
   if (!(unit > 0.0f)) return albedo;
   const SkyLight sky = light_of_sky(e, s, m, false, false, lanes);
   const Vec light = (sky.matt + sky.mirrored) * (m.alpha * Float(1.0f / unit));
@@ -103,9 +103,6 @@ inline void for_each_point(const Bounce& bounce, Int pixels, Mask lanes, Add add
   const bool under_sky = bounce.environment && bounce.environment->prefiltered;
   const Vec albedo =
       throughput * (under_sky ? returned_of_sky(*bounce.environment, s, m, even, lanes) : even);
-  const auto luminance = [](const Vec& rgb) {
-    return Float(0.2126f) * rgb.x + Float(0.7152f) * rgb.y + Float(0.0722f) * rgb.z;  // Rec. 709
-  };
   const Float all[9] = {albedo.x,      albedo.y,        albedo.z,
                         s.n_shading.x, s.n_shading.y,   s.n_shading.z,
                         s.way,         luminance(even), luminance(throughput * even)};

@@ -21,10 +21,6 @@ inline Float density_of_candidates(Float density) {
   return Float(as_float(kSkyCandidates)) * density;
 }
 
-inline Float luminance_of(const Vec& c) {
-  return Float(0.2126f) * c.x + Float(0.7152f) * c.y + Float(0.0722f) * c.z;
-}
-
 // The light that a shadow ray carries.
 struct SkyChoice {
   Vec to_light, carried;  // carried: zero where no candidate brings light
@@ -56,7 +52,7 @@ struct SkyChoice {
       returned[k] = returned[k] * terminator_factor(s.n_shading, s.n_geometric, to_light);
     returned[k] = throughput * returned[k] * brdf_share(m);
     const Float light = brightness_at(*bounce.environment, sample[k].place, faces) / sample[k].density;
-    weight[k] = select(faces, luminance_of(returned[k]) * light, Float(0.0f));
+    weight[k] = select(faces, luminance(returned[k]) * light, Float(0.0f));
     sum[k] = all = all + weight[k];
   }
   const Float at = all * sample_2d(sampling, bounce.dimension + shared::kEnvironmentChoiceDimension).x;

@@ -1,4 +1,4 @@
-// Part of walk/kernel.h's files: what the remedies of the shadow terminator mean for shadow rays.
+// Part of walk/kernel.h's files: where shadow rays start, by each method for the shadow terminator.
 #pragma once
 
 #include "core/trace/lanes/scatter.h"

@@ -2,6 +2,8 @@
 // pictures are those of the scalar code.
 #pragma once
 
+#include "core/math/luminance.h"
+
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
@@ -102,6 +104,10 @@ inline void for_each_distinct(Int values, Mask lanes, Visit visit) {
     visit(one, same);
     waiting &= ~same.bits();
   }
+}
+
+inline Float luminance(const Vec& rgb) {
+  return Float(kLuminance.r) * rgb.x + Float(kLuminance.g) * rgb.y + Float(kLuminance.b) * rgb.z;
 }
 
 }  // namespace

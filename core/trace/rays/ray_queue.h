@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/bsp/tree.h"
+#include "core/base/aligned_vector.h"
 #include "pinocchio/ray.h"
 
 namespace pinocchio {

@@ -13,8 +13,8 @@
 namespace pinocchio {
 
 // The plane of the shadow catcher as triangles that rays are lit on: nested ones about the scene's centre,
-// each four times as large as the one before. A ray is lit on the smallest that has its point, so that the
-// point is as exact as near the scene as its distance from there allows.
+// each four times as large as the one before. A ray is lit on the smallest that has its point, so that
+// rounding stays in proportion to the distance from the scene.
 class CatcherPlane {
  public:
   CatcherPlane(const Bounds& scene, float height);

@@ -39,7 +39,7 @@ void Holes::pass(const Tracer& tracer, const Bounce& bounce, RayQueue& rays, con
     for (std::size_t k = 0; k < on_.size; ++k) {
       const std::size_t i = on_.pixel[k];
       rays.triangle[i] = on_.triangle[k];
-      // Where it meets that is found by the ray from its first origin, as surfaces are.
+      // Points are computed from the ray's first origin, as surfaces are.
       for (int axis = 0; axis < 3; ++axis) on_.origin[axis][k] = rays.origin[axis][i];
     }
     keep(met_.find(tracer, bounce, on_));

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "core/bsp/tree.h"
+#include "core/base/aligned_vector.h"
 #include "core/trace/lanes/lane_steps.h"
 #include "core/trace/rays/material_marks.h"
 #include "core/trace/rays/ray_queue.h"

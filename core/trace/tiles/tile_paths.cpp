@@ -121,8 +121,8 @@ void TileTracer::block_by_ways_up(const RayQueue& up, int generation) {
   for (std::size_t i = 0; i < up.size; ++i) blocked_[up.pixel[i]] |= up_blocked_[i] ? kWholly : 0;
 }
 
-// Adds what came of the last shadow rays' light through glass. It is traced light at visible points, too: the
-// mask has no shades.
+// Adds the light of the last shadow rays that passed glass. It is traced light at visible points, too: a bit
+// of the mask has no shades.
 void TileTracer::add_light_through_glass(const RayQueue& queue, glm::vec4* to) {
   for (const TintedShadows::Lit& lit : tinted_.lit())
     if (blocked_[lit.ray] == 1) to[queue.pixel[lit.ray]] += glm::vec4(lit.light, 0.0f);

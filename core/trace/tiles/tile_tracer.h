@@ -90,7 +90,8 @@ class TileTracer {
   RayQueue diffuse_, next_diffuse_;
   std::array<RayQueue, kLightGroup> shadow_, ways_up_;
   RayQueue sky_, sky_ways_up_, lobe_lights_;
-  // By shadow ray. Bit 0: something is in the way; bit 1: nor does light come through glass.
+  // By shadow ray. 0: nothing is in the way; 1: something, through which light may come (tinted_); 3: no
+  // light comes.
   std::vector<std::uint8_t> blocked_;
   std::vector<std::uint8_t> up_blocked_;
   Holes holes_;

@@ -40,7 +40,7 @@ void TintedShadows::start(const RayQueue& rays, bool ends, std::uint8_t* blocked
   }
 }
 
-// Keeps the rays that are neither at their light nor at their end.
+// Keeps the rays that have neither reached their light nor lost all of theirs.
 void TintedShadows::keep_going(const std::uint32_t* holes, float least, std::uint8_t* blocked) {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < on_.size; ++k) {

@@ -71,7 +71,7 @@ struct TileOutputs {
   int depth = 0;
   Image<glm::vec3>* reflection = nullptr;
   // For each tile (TileGrid's) of `reflection`, 1 if it is black, else 0. Kept beside the image from frame to
-  // frame, so that what is black is not written again. Whoever else changes the image empties it.
+  // frame, so that what is black is not written again. Clear it after any other change of the image.
   std::vector<std::uint8_t>* black_tiles = nullptr;
   // Also in `reflection`: one sample of the environment's light, and one of light from other matt surfaces,
   // with at most `indirect` bounces.

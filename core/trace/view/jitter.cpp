@@ -74,7 +74,7 @@ glm::vec2 jitter_of(int k, PixelFilter filter) {
   if (k == 0) return glm::vec2(0.0f);
   if (filter == PixelFilter::box) return glm::vec2(place_in_box(k));
   glm::dvec2 at = place_in_window(k);
-  // The first seven are no pairs: the window moves the mean of 1 to 3, and of 4 to 7, away from the centre.
+  // Samples 1 to 3 and 4 to 7 are not pairs: without their mean they stay about the centre.
   if (k < 4)
     at -= mean_in_window(1, 4);
   else if (k < 8)

@@ -7,8 +7,8 @@
 namespace pinocchio {
 
 // Offset of a pixel's sample k from the pixel's centre, in pixels, spread by the filter; all samples have the
-// same weight. Sample 0 is the centre, which is also the mean of 4, 8, 10, 12 and so on samples: a mean
-// beside the centre moves all outlines.
+// same weight. Sample 0 is the centre, which is also the mean of 4, 8, 10, 12 and so on samples: with a
+// mean beside the centre, all outlines would shift.
 [[nodiscard]] glm::vec2 jitter_of(int k, PixelFilter filter = PixelFilter::box);
 
 // The lens point of a picture's sample k, on a disc of radius 1: sample 0 is its centre, which is also the

@@ -27,7 +27,7 @@ class SeenTiles {
   std::size_t scale_;
   const TileGrid& grid_;
   std::unique_ptr<std::once_flag[]> is_read_;  // by row
-  std::vector<std::uint32_t> all_;             // by tile: the bits that its ids have in common
+  std::vector<std::uint32_t> all_;             // by tile: bitwise AND of its ids
 };
 
 }  // namespace pinocchio

@@ -10,8 +10,8 @@ namespace pinocchio {
 namespace {
 
 // Twice the signed area of the triangle that the edge from p to q spans with the ray, the origin here.
-// Rounding never flips its sign but can make it zero: then both products are the same number, and what
-// rounding took from each decides.
+// Rounding never flips its sign but can make it zero: then the products are equal, and their rounding errors
+// are compared.
 double edge_function(const glm::dvec3& p, const glm::dvec3& q) {
   const double low = p.x * q.y, high = p.y * q.x;
   if (low != high) return low - high;

@@ -9,7 +9,7 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-// So many boxes are tested against each ray in less time than a beam takes to make.
+// Up to this number of boxes, testing them against each ray is faster than making a beam.
 constexpr std::size_t kFewTrees = 3;
 
 inline float least_of(Float x) {

@@ -75,7 +75,7 @@ TEST(LoadStl, HostileFilesAreRefusedInOneLine) {
     EXPECT_NE(why.find(what), std::string::npos) << why;
     EXPECT_EQ(why.find('\n'), std::string::npos);
   };
-  says("no stl", "is no STL");
+  says("no stl", "is not STL");
   says(std::string(84, '\0'), "holds no triangles");
   says(binary({kCorners}, 0xffffffffu), "states 4294967295 triangles, its 134 bytes hold 1");
   says(binary({kCorners, kCorners}, 3), "states 3 triangles");

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/bsp/tree.h"
+#include "core/base/aligned_vector.h"
 
 #include "tests/core/trace/lane_probe.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/bsp/tree.h"
+#include "core/base/aligned_vector.h"
 #include "core/shade/shared.h"
 #include "tests/core/trace/lane_probe.h"
 #include "tests/support/scenes.h"

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/bsp/tree.h"
+#include "core/base/aligned_vector.h"
 #include "pinocchio/view.h"
 #include "tests/core/trace/lane_probe.h"
 #include "tests/support/scenes.h"

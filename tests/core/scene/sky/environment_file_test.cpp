@@ -108,6 +108,24 @@ TEST(EnvironmentFile, WhatIsNotFiniteIsRepairedAndSaid) {
       << warnings[0].message();
 }
 
+TEST(EnvironmentFile, NegativeLightIsReadAsNoneAndSaid) {
+  ExrFile exr;
+  exr.display_size = {8, 4};
+  exr.data_window = {{0, 0}, exr.display_size};
+  for (const char* name : {"R", "G", "B"})
+    exr.channels.push_back({name, ExrChannel::Type::real, std::vector<float>(32, 0.5f), {}});
+  exr.channels[0].values[3] = -2.0f;
+  write_exr(own_file("negative.exr"), exr);
+  Warnings warnings;
+  const auto sky = load_environment(own_file("negative.exr"), nullptr, kUsualLoadLimit, &warnings);
+  ASSERT_TRUE(sky) << sky.error().message();
+  EXPECT_EQ((*sky)->radiance().at(3, 0), glm::vec3(0.0f, 0.5f, 0.5f));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].message().find("negative.exr: 1 pixels are negative; they are read as 0"),
+            std::string::npos)
+      << warnings[0].message();
+}
+
 TEST(EnvironmentFile, OtherShapesThanTwoToOneAreSaid) {
   ExrFile exr;
   exr.display_size = {8, 8};

@@ -61,6 +61,16 @@ TEST(StudioCamera, FramesWhatIsTiny) {
   expect_framed(scene, {800, 600}, scene.mesh->triangles.size());
 }
 
+// As scans in the coordinates of a country are: a hundred thousand times its size away from the origin.
+TEST(StudioCamera, FramesWhatIsFarFromTheOrigin) {
+  MeshData mesh = *random_soup(200, 0.5f, 7).mesh;
+  for (glm::vec3& p : mesh.positions) p = 3.0f * p + glm::vec3(1e5f);
+  const Scene scene(std::move(mesh));
+  expect_framed(scene, {800, 600}, scene.mesh->triangles.size());
+  const Camera whole = camera_for_whole_scene(scene);
+  EXPECT_LT(glm::length(whole.eye - whole.target), 5.0f * scene.mesh->bounds().diagonal());
+}
+
 TEST(StudioCamera, GroundAndSkyDoNotPushItAway) {
   MeshData mesh = *random_soup(200, 0.3f, 3).mesh;
   const std::size_t object = mesh.triangles.size();
