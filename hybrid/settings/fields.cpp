@@ -160,23 +160,26 @@ constexpr std::array kTable{
         "choose visibility and composite, where they are not given: the GPU where OpenGL is "
         "hardware, else the CPU, and no OpenGL is opened",
         kOfMachine),
-    field<&S::exchange>(
-        G::exchange, "exchange", one_of(kExchangeNames), "pipelined over several frames, sync for one",
-        "sync: wait for the CPU; pipelined: its part comes frames later, GPU and CPU work on "
-        "different frames; reproject: newest raster, the last mask and reflection warped to it"),
+    field<&S::exchange>(G::exchange, "exchange", one_of(kExchangeNames),
+                        "pipelined over several frames, sync for one",
+                        "sync: wait for the CPU; pipelined: its part comes frames later, GPU and CPU work on "
+                        "different frames; reproject: newest raster, the last mask and reflection warped to "
+                        "it, where a picture is one sample"),
     field<&S::spp>(G::samples, "spp", from_to(1, 65536), "1",
                    "jittered samples a pixel, averaged in linear light"),
     field<&S::max_noise>(
         G::samples, "max_noise", from_to(0, 1), "0",
         "a tile of 32x32 pixels takes no more samples once the standard error of its pixels' "
         "means, linear, is below this; 0: every pixel takes all samples"),
-    field<&S::pixel_filter>(G::samples, "pixel_filter", one_of(kPixelFilterNames), "box",
-                            "how a pixel's samples are spread: evenly over the pixel, or over 3 pixels by a "
-                            "window that smooths edges"),
+    field<&S::pixel_filter>(
+        G::samples, "pixel_filter", one_of(kPixelFilterNames), "box",
+        "how a pixel's samples are spread: box, evenly over the pixel; blackman-harris, over "
+        "3 pixels by that window, which smooths edges"),
     field<&S::sequence>(G::samples, "sequence", one_of(kSequenceNames), "sobol; z-order with denoise",
-                        "sequence of a pixel's samples: scrambled Sobol points; one Sobol sequence rotated "
-                        "from pixel to pixel, so that noise is fine-grained; random numbers; or one Sobol "
-                        "sequence through all pixels, so that neighbours' samples complement each other"),
+                        "sequence of a pixel's samples: sobol, scrambled points of its own; blue-noise, one "
+                        "Sobol sequence rotated from pixel to pixel, so that noise is fine-grained; random, "
+                        "random numbers; z-order, one Sobol sequence through all pixels, so that "
+                        "neighbours' samples complement each other"),
     field<&S::seed>(G::samples, "seed", from_to(0, 65535), "0", "another seed gives other samples"),
     field<&S::depth>(G::rays, "depth", from_to(0, kMostBounces),
                      "8, or fewer where the scene's mirrors need no more", "most bounces"),
@@ -235,6 +238,9 @@ constexpr std::array kTable{
         G::light, "sky_occlusion", from_to(0, 64), "0; 8 for the studio",
         "shadow rays at each point that hide a prefiltered environment, about the surface's "
         "normal; 0: it casts no shadows"),
+    field<&S::sky_bounce>(G::light, "sky_bounce", from_to(0, 1), "0; 0.5 for the studio without indirect",
+                          "how much of the light that something hides from a prefiltered environment stays, "
+                          "times the point's albedo: a guess at the light of what hides it"),
     field<&S::glass_shadows>(
         G::light, "glass_shadows", one_of(kGlassShadowsNames), glass_shadows_name(kUsualGlassShadows),
         "shadow rays at glass: opaque: they end, and glass casts a full shadow; tinted: they continue "

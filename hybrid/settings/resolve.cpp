@@ -117,6 +117,7 @@ Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, co
   if (stats.studio) {
     s.environment_light.fill(EnvironmentMethod::prefiltered);
     s.sky_occlusion.fill(8);
+    if (s.indirect == 0) s.sky_bounce.fill(0.5f);
   }
   if (s.environment_light == EnvironmentMethod::prefiltered) s.glossy.fill(Glossy::sharp);
   s.id_bits.fill(stats.triangles < kMost16BitIds ? 16 : 32);
@@ -175,6 +176,10 @@ std::vector<std::string> losses(const Settings& s, const SceneStats& stats) {
     lines.emplace_back("reflection none: light from other surfaces is left out");
   if (s.reflection.given && !s.reflects() && s.shadow_catcher.value.kind != ShadowCatcher::Kind::off)
     lines.emplace_back("reflection none: the shadow catcher catches nothing");
+  if (stats.studio && !s.shadow_catcher.given && s.shadow_catcher.value.kind == ShadowCatcher::Kind::off)
+    lines.emplace_back(
+        "the studio's ground shadow is left out: it travels with mirrored light, which this plan does not "
+        "send");
   return lines;
 }
 

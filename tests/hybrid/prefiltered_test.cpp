@@ -176,5 +176,47 @@ TEST(Prefiltered, ShadowRaysHideTheSky) {
   }
 }
 
+// A box of rough metal on a metal floor: what the floor hides of the mirrored light is a share, not all or
+// none.
+TEST(Prefiltered, WideLobesAreHiddenByDegrees) {
+  MeshData mesh;
+  MeshBuilder builder(mesh);
+  builder.use(gltf(1.0f, 0.6f));
+  builder.box({-2, -0.1f, -2}, {2, 0, 2});
+  builder.box({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f});
+  Scene scene(mesh);
+  scene.ambient_light = glm::vec3(0.0f);
+  scene.environment = std::make_shared<const Environment>(Image<glm::vec3>({16, 8}, glm::vec3(1.0f)));
+  Camera camera;
+  camera.eye = {0, 0.6f, 2.5f};
+  camera.target = {0, 0.5f, 0};
+  camera.fov_deg = 30.0f;
+  scene.cameras = {camera};
+  DrawRequest request{.settings = prefiltered_light(), .size = {64, 64}};
+  request.settings.sky_occlusion = 16;
+  request.settings.spp = 16;
+  const auto row = [&](float height, const FrameResult& drawn) {
+    const int y = static_cast<int>((1.0f - height) * 48.0f) + 8;
+    double sum = 0.0;
+    for (int x = 24; x < 40; ++x) sum += static_cast<double>(drawn.color.at(x, y).g) / 16.0;
+    return sum;
+  };
+  const FrameResult dark = draw_one(scene, request);
+  double above = row(0.9f, dark);
+  for (const float height : {0.7f, 0.5f, 0.3f, 0.1f}) {
+    const double here = row(height, dark);
+    EXPECT_LT(here, 1.02 * above) << height;
+    EXPECT_GT(here, 0.5 * above) << height;
+    above = here;
+  }
+  // What stays of the hidden light.
+  request.settings.sky_bounce = 0.5f;
+  const FrameResult bounced = draw_one(scene, request);
+  EXPECT_GT(row(0.1f, bounced), 1.1 * row(0.1f, dark));
+  request.settings.sky_bounce = 0.0f;
+  request.settings.sky_occlusion = 0;
+  EXPECT_LT(row(0.9f, bounced), row(0.9f, draw_one(scene, request)) + 1e-4);
+}
+
 }  // namespace
 }  // namespace pinocchio

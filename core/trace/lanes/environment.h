@@ -42,7 +42,7 @@ namespace {
 [[gnu::noinline]] void scatter_diffuse(const Bounce& bounce, const LaneSurface& s, const LaneMaterial& m,
                                        const Vec& throughput, const SampledPixel& sampling, Int pixel,
                                        Mask lanes, const LaneMedia* media) {
-  const Vec albedo = m.diffuse * (brdf_share(m) * Float(3.14159265359f));
+  const Vec albedo = m.diffuse * (brdf_share(m) * Float(shared::kPi));
   Vec light = throughput * albedo;
   lanes = lanes & (light != Vec(0.0f));
   if (lanes.bits() == 0) return;
@@ -56,26 +56,6 @@ namespace {
   }
   follow(s, direction, light, pixel, lanes & (Float(0.0f) < dot(direction, s.n_geometric)),
          bounce.options->throughput_cutoff, *bounce.diffuse, media ? &media->here : nullptr);
-}
-
-// Adds the lanes' light to their pixels, lane after lane.
-inline void add_light(const Vec& light, const std::uint32_t* pixel, Mask lanes, float* radiance) {
-  using Row [[gnu::vector_size(16), gnu::may_alias, gnu::aligned(4)]] = float;  // of RGBA
-  alignas(64) float rgb[3][kWidth];
-  light.x.store(rgb[0]);
-  light.y.store(rgb[1]);
-  light.z.store(rgb[2]);
-  for (unsigned waiting = lanes.bits(); waiting != 0; waiting &= waiting - 1) {
-    const int lane = __builtin_ctz(waiting);
-    Row& to = *reinterpret_cast<Row*>(radiance + 4 * std::size_t{pixel[lane]});
-    to = to + Row{rgb[0][lane], rgb[1][lane], rgb[2][lane], 0.0f};
-  }
-}
-
-inline void add_light(const Vec& light, Int pixels, Mask lanes, float* radiance) {
-  alignas(64) std::uint32_t pixel[kWidth];
-  pixels.store(pixel);
-  add_light(light, pixel, lanes, radiance);
 }
 
 // Finds where in the picture the rays of some packets go. Memory is requested for all of them at once.

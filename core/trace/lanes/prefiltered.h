@@ -10,16 +10,29 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-// A direction about +Z by the cosine: of `rays` of a sample, which are evenly spread and turned from sample
-// to sample.
-inline Vec sky_ray(int k, int rays, std::uint32_t sample) {
-  constexpr float kGolden = 0.618034f;
-  const float turn = kGolden * as_float(k) + 0.754878f * as_float(sample & 0xffffu);
-  const float square = (as_float(k) + 0.5f) / as_float(rays);
-  const Angle angle = angle_of(Float(turn) - floor(Float(turn)));
-  const Float across = sqrt(Float(square));
-  return {across * angle.cosine, across * angle.sine, sqrt(Float(1.0f - square))};
-}
+// Directions about +Z by the cosine, evenly spread. Each pixel has its own, spread together with its
+// neighbours' (sampling.glsl): where shadows of the same directions overlap, their edges show. Samples turn
+// them; every fourth moves them in or out.
+class SkyRays {
+ public:
+  SkyRays(const whole2& pixel, std::uint32_t sample, int rays) : rays_(Float(as_float(rays))) {
+    constexpr std::uint32_t kSeed = 0x5ca1ab1eu;
+    const vec2 moved = vec2(scrambled_sobol(z_order(pixel), Int(kSeed)) >> 8u) * (1.0f / 16777216.0f);
+    turn_ = moved.x + Float(0.754878f * as_float(sample & 0xffffu));
+    const Float inside = moved.y + Float(0.569840f * as_float(sample >> 2u & 0xffffu));
+    inside_ = inside - floor(inside);
+  }
+  [[nodiscard]] Vec direction(int k) const {
+    constexpr float kGolden = 0.618034f;
+    const Float turn = turn_ + Float(kGolden * as_float(k)), square = (Float(as_float(k)) + inside_) / rays_;
+    const Angle angle = angle_of(turn - floor(turn));
+    const Float across = sqrt(square);
+    return {across * angle.cosine, across * angle.sine, sqrt(Float(1.0f) - square)};
+  }
+
+ private:
+  Float rays_, turn_, inside_;
+};
 
 // The light that lobes of that alpha about `axis` see: between two levels of the sky.
 [[gnu::noinline]] Vec light_of_lobe(const EnvironmentLight& e, const Vec& axis, Float alpha, Mask lanes) {
@@ -51,11 +64,15 @@ inline Vec sky_ray(int k, int rays, std::uint32_t sample) {
   return light;
 }
 
+constexpr float kLeastLobe = 0.01f;  // alpha; so that a lobe's weight stays finite
+
 // The sky's light that a packet's points return, by the directions that it comes from.
 struct SkyLight {
   Vec matt;      // from all around the normal
   Vec mirrored;  // from about `axis`
   Vec axis;
+  Float alpha;  // of the lobe about it
+  Vec albedo;   // of both, without a coat
 };
 
 // m: viewed_from's. mirrors: rays of sharp mirrors bring their share; lobes: rays along the lobes of glTF's
@@ -70,14 +87,21 @@ struct SkyLight {
   const Vec irradiance =
       irradiance_at({e.prefiltered->irradiance.data()}, turned) * (Float(e.strength) * m.occlusion);
   const Mask microfacet = lanes & Mask::from_bits(m.microfacet), phong = lanes & ~microfacet;
-  constexpr float kByPi = 0.31830988618f;
   const Vec direction = reflect(-s.to_viewer, n);
-  SkyLight sky{Vec(zero), Vec(zero), direction};
-  if (any(phong)) sky.matt = irradiance * m.diffuse * brdf_share(m);
-  if (any(microfacet))
-    sky.matt = select(microfacet, irradiance * matt_albedo(m, n_dot_v) * Float(kByPi), sky.matt);
+  SkyLight sky{Vec(zero), Vec(zero), direction, max(m.ggx_alpha, Float(kLeastLobe)), Vec(zero)};
+  if (any(phong)) {
+    const Vec diffuse = m.diffuse * brdf_share(m);
+    sky.albedo = diffuse * Float(shared::kPi);
+    sky.matt = irradiance * diffuse;
+  }
+  if (any(microfacet)) {
+    const Vec albedo = matt_albedo(m, n_dot_v);
+    sky.albedo = select(microfacet, albedo, sky.albedo);
+    sky.matt = select(microfacet, irradiance * albedo * Float(shared::kOneByPi), sky.matt);
+  }
   if (any(phong & (m.specular != Vec(zero)))) {
     const Float alpha = alpha_of_phong(max(m.shininess, one));
+    sky.alpha = select(phong, max(alpha, Float(kLeastLobe)), sky.alpha);
     sky.mirrored =
         select(phong, light_of_lobe(e, direction, alpha, phong) * phong_albedo(m) * brdf_share(m), Vec(zero));
   }
@@ -91,6 +115,7 @@ struct SkyLight {
       left = select(Mask::from_bits(m.reflects),
                     Vec(rest(all.x, sharp.x), rest(all.y, sharp.y), rest(all.z, sharp.z)), left);
     }
+    sky.albedo = select(lit, sky.albedo + base, sky.albedo);
     sky.axis = select(lit, lobe_axis(n, direction, m.ggx_alpha), sky.axis);
     Vec mirrored = base * light_of_lobe(e, sky.axis, m.ggx_alpha, lit);
     if (const Mask coated = lit & (zero < m.layers.coat); any(coated)) {
@@ -105,8 +130,17 @@ struct SkyLight {
   return sky;
 }
 
-// Shadow rays that carry the sky's light in equal parts: one along the mirrored light's axis, the others by
-// the cosine about the normal, the same ones at all points of a sample.
+// How much of a lobe of that alpha is about a direction, that along its axis being 1 / alpha^4: the density
+// of microfacets (GGX) halfway between the two.
+inline Float lobe_weight(Float alpha, const Vec& axis, const Vec& direction) {
+  const Float one(1.0f), half2 = Float(0.5f) * (one + dot(axis, direction)), a2 = alpha * alpha;
+  const Float bulk = one - half2 + a2 * half2;
+  return one / (bulk * bulk);
+}
+
+// Shadow rays that carry the sky's light: one along the mirrored light's axis, the others by the cosine about
+// the normal. These share matt light evenly, and mirrored light with the first by the lobe's width.
+// TraceOptions::sky_bounce of the light needs no ray.
 [[gnu::noinline]] void hide_sky(const Bounce& bounce, const LaneSurface& s, const SkyLight& sky,
                                 const Vec& throughput, Int pixel, Mask lanes) {
   const auto fire = [&](const Vec& direction, const Vec& light) {
@@ -115,11 +149,26 @@ struct SkyLight {
     if (any(lit))
       append_shadow_ray(s, offset_origin(s, direction), direction, light, pixel, lit, *bounce.sky);
   };
-  fire(sky.axis, throughput * sky.mirrored);
   const int rays = bounce.options->sky_occlusion;
-  const Vec part = throughput * sky.matt * Float(1.0f / as_float(rays));
+  const SkyRays about(whole_picture_pixel(bounce, pixel), bounce.options->sampling.index, rays);
+  const Vec one(Float(1.0f)), kept = min(sky.albedo, one) * Float(bounce.options->sky_bounce);
+  const Vec hidden = one - kept;
+  if (any(lanes & (kept != Vec(0.0f))))
+    add_light(throughput * (sky.matt + sky.mirrored) * kept, pixel, lanes, bounce.traced);
+  const Vec matt = throughput * sky.matt * hidden * Float(1.0f / as_float(rays));
+  const Vec mirrored = throughput * sky.mirrored * hidden;
+  if (!any(lanes & (mirrored != Vec(0.0f)))) {
+    for (int k = 0; k < rays; ++k) fire(around(s.n_shading, about.direction(k)), matt);
+    return;
+  }
+  const Float along_axis = lobe_weight(sky.alpha, sky.axis, sky.axis);
+  Float all = along_axis;
+  for (int k = 0; k < rays; ++k)
+    all = all + lobe_weight(sky.alpha, sky.axis, around(s.n_shading, about.direction(k)));
+  fire(sky.axis, mirrored * (along_axis / all));
   for (int k = 0; k < rays; ++k) {
-    fire(around(s.n_shading, sky_ray(k, rays, bounce.options->sampling.index)), part);
+    const Vec direction = around(s.n_shading, about.direction(k));
+    fire(direction, matt + mirrored * (lobe_weight(sky.alpha, sky.axis, direction) / all));
   }
 }
 

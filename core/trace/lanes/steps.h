@@ -65,14 +65,6 @@ inline void append_shadow_rays(const BounceLight& from, const LaneSurface& s, co
   starts.append_ways_up(lanes, bounce.shadow[from.queue], bounce.ways_up[from.queue]);
 }
 
-// The whole picture's pixels that the tile's samples belong to.
-inline whole2 whole_picture_pixel(const Bounce& bounce, Int pixel) {
-  pixel = pixel & Int(kSampledPixels - 1);
-  const Int row = shift_right<kTileBits>(pixel), scale(bounce.scale);
-  return {(pixel - shift_left<kTileBits>(row)) * scale + Int(bounce.corner.x),
-          row * scale + Int(bounce.corner.y)};
-}
-
 // The light that comes from one light to the points of a packet.
 template <bool kSampled>
 [[gnu::always_inline]] inline Incident light_from(const BounceLight& light, const LaneSurface& s,
@@ -102,7 +94,7 @@ template <bool kSampled>
 inline Vec light_points(const Bounce& bounce, const Corners& corners, const LaneSurface& s,
                         const LaneMaterial& m, const Vec& throughput, const LaneLobe& lobe,
                         const SampledPixel* sampling, Int pixel, Mask lanes) {
-  // With a cutoff, no step asks the maps of a visible point for its shadow rays: its geometry decides alone.
+  // With a cutoff, visible points with maps choose their shadow rays by the geometric normal alone.
   const bool cuts = bounce.cuts_light();
   const unsigned mapped = cuts ? m.mapped : 0;
   ShadowStarts starts(bounce.options->terminator, corners, s);

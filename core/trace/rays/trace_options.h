@@ -20,7 +20,8 @@ namespace shared {
 }
 }  // namespace shared
 
-// TraceOptions::light_cutoff for so many lights: what all together leave out stays below kThroughputCutoff.
+// TraceOptions::light_cutoff for that number of lights: what all of them leave out stays below
+// kThroughputCutoff.
 [[nodiscard]] constexpr float light_cutoff_of(int lights) {
   return kThroughputCutoff / as_float(lights > 1 ? lights : 1);
 }
@@ -40,13 +41,16 @@ struct TraceOptions {
   EnvironmentMethod environment_light = EnvironmentMethod::sampled;
   Glossy glossy = Glossy::sampled;
   int sky_occlusion = 0;  // shadow rays about the normal for a prefiltered environment; 0: it casts none
-  bool denoise = false;   // light that is found at random is kept apart for the filter (core/denoise)
+  // Of the light that something hides from the prefiltered environment, this share of the point's albedo
+  // stays: a guess at the light of what hides it.
+  float sky_bounce = 0.0f;
+  bool denoise = false;  // light that is found at random is kept apart for the filter (core/denoise)
   GlassShadows glass_shadows = kUsualGlassShadows;
   Background background{};                // behind the scene ...
   float background_blur = 0.0f;           // ... and how far a picture there is blurred (backdrop_of)
   std::optional<float> catcher_height{};  // world y of the shadow catcher (pinocchio/shadow_catcher.h)
-  glm::vec2 jitter{0.0f};       // View's: tells the samples of a pixel apart where they decide at random
-  shared::Sampling sampling{};  // the sample of sized lights, rough mirrors and the environment
+  glm::vec2 jitter{0.0f};                 // View's: seeds decisions at random, different for each sample
+  shared::Sampling sampling{};            // the sample of sized lights, rough mirrors and the environment
 
   friend bool operator==(const TraceOptions&, const TraceOptions&) = default;
 };

@@ -1,6 +1,7 @@
 // What a tile's pixels show behind the scene: the background, and the shadows on the shadow catcher.
 #include <algorithm>
 
+#include "core/math/luminance.h"
 #include "core/trace/tiles/tile_tracer.h"
 #include "core/trace/view/view_params.h"
 #include "pinocchio/conversion.h"
@@ -10,14 +11,6 @@ namespace {
 
 // The least coverage of what is hit, however clear it is: 0 is where nothing is.
 constexpr float kLeastCoverage = 1e-30f;
-
-// Rays at a prefiltered sky, for each of a surface's: on ground of one colour the edge of each direction's
-// shadow shows.
-constexpr int kGroundRays = 4;
-
-float luminance(float r, float g, float b) {
-  return 0.2126f * r + 0.7152f * g + 0.0722f * b;  // Rec. 709
-}
 
 // Sets ray i. `share`: of its pixel.
 void put(const Ray& ray, std::uint32_t pixel, float share, std::uint32_t triangle, std::size_t i,
@@ -149,7 +142,7 @@ void TileTracer::find_lost(RayQueue& rays) {
   if (rays.size == 0) return;
   for (std::size_t i = 0; i < rays.size; ++i) ground_light_[rays.pixel[i]] = glm::vec4(0.0f);
   TraceOptions options = plan_->job.options;
-  options.sky_occlusion *= kGroundRays;
+  options.sky_bounce = 0.0f;
   options.light_cutoff = options.throughput_cutoff = 0.0f;  // shares of light, however faint it is
   const Footprint no_textures;
   Bounce step = plan_->further;
@@ -176,7 +169,7 @@ void TileTracer::find_lost(RayQueue& rays) {
   }
   for (std::size_t i = 0; i < rays.size; ++i) {
     glm::vec4& light = ground_light_[rays.pixel[i]];
-    const float all = luminance(light.r, light.g, light.b);
+    const float all = luminance(glm::vec3(light));
     light.a = all > 0.0f ? std::clamp(light.a / all, 0.0f, 1.0f) : 0.0f;
   }
 }
@@ -189,13 +182,12 @@ void TileTracer::count_lost(const RayQueue& queue, float reach) {
   ask_occluded(queue, reach);
   for (std::size_t i = 0; i < queue.size; ++i) {
     const glm::vec3 carried(queue.light[0][i], queue.light[1][i], queue.light[2][i]);
-    const float lost = blocked_[i] ? luminance(carried.r, carried.g, carried.b) : 0.0f;
+    const float lost = blocked_[i] ? luminance(carried) : 0.0f;
     ground_light_[queue.pixel[i]] += glm::vec4(carried, lost);
   }
   if (!plan_->tints) return;
   for (const TintedShadows::Lit& lit : tinted_.lit())  // came through glass, and is not lost
-    if (blocked_[lit.ray])
-      ground_light_[queue.pixel[lit.ray]].a -= luminance(lit.light.r, lit.light.g, lit.light.b);
+    if (blocked_[lit.ray]) ground_light_[queue.pixel[lit.ray]].a -= luminance(lit.light);
 }
 
 // Darkens the background where the plane lost light.

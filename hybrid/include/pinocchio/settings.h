@@ -105,6 +105,7 @@ struct Settings {
   Setting<EnvironmentMethod> environment_light;
   Setting<Glossy> glossy;
   Setting<int> sky_occlusion;
+  Setting<float> sky_bounce;
   Setting<GlassShadows> glass_shadows = Setting<GlassShadows>::by_default(kUsualGlassShadows);
   Setting<bool> denoise, average_layers;
   Setting<Background> background;
