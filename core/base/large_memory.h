@@ -11,11 +11,12 @@
 
 namespace pinocchio {
 
-// Requests pages of 2 MiB for the whole ones inside. The system provides pages of 4 KiB one by one as they
-// are first written, which takes longer than the writing. Without large pages, small ones are used.
+inline constexpr std::size_t kLargePage = std::size_t{1} << 21;
+
+// Requests pages of kLargePage for the whole ones inside. The system provides pages of 4 KiB one by one as
+// they are first written, which takes longer than the writing. Without large pages, small ones are used.
 inline void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
-  constexpr std::uintptr_t kLargePage = std::uintptr_t{1} << 21;
   const std::uintptr_t begin =
                            (reinterpret_cast<std::uintptr_t>(memory) + kLargePage - 1) & ~(kLargePage - 1),
                        end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) & ~(kLargePage - 1);

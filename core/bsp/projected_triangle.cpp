@@ -44,4 +44,8 @@ ProjectedTriangle ProjectedTriangle::from(const glm::vec3& a, const glm::vec3& b
   return triangle;
 }
 
+bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  return glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a)) != glm::dvec3(0.0);
+}
+
 }  // namespace pinocchio

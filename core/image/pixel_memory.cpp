@@ -7,10 +7,11 @@
 #include <cstdlib>
 #include <mutex>
 
+#include "core/base/aligned_vector.h"
+#include "core/base/large_memory.h"
+
 namespace pinocchio {
 namespace {
-
-constexpr std::size_t kLargePage = std::size_t{1} << 21, kCacheLineBytes = 64;
 
 // The last page is a large one, too, if that adds at most an eighth.
 std::size_t whole_pages(std::size_t bytes) {
@@ -76,7 +77,7 @@ void* allocate_pixels(std::size_t bytes) {
   if (large)
     if (void* const memory = spare().take(size)) return memory;
   void* memory = nullptr;
-  if (posix_memalign(&memory, large ? kLargePage : kCacheLineBytes, size) != 0) throw std::bad_alloc();
+  if (posix_memalign(&memory, large ? kLargePage : kCacheLine, size) != 0) throw std::bad_alloc();
 #ifdef MADV_HUGEPAGE
   if (large) madvise(memory, size, MADV_HUGEPAGE);  // without success, small pages are used
 #endif

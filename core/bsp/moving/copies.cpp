@@ -42,12 +42,6 @@ bool are_alike(const Mesh& mesh, const MeshCopy& a, const MeshCopy& b) {
                             });
 }
 
-// As ProjectedTriangle::from finds it.
-bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-  const glm::dvec3 n = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
-  return n != glm::dvec3(0.0);
-}
-
 Bounds bounds_with_area(const Mesh& mesh, const MeshCopy& copy) {
   Bounds bounds;
   for (const glm::uvec3& t : triangles_of(mesh, copy)) {

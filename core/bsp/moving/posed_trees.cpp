@@ -326,7 +326,7 @@ class Trees {
     for (const std::uint32_t id : group.kept->order) {
       const glm::uvec3& t = mesh_.triangles[id];
       const glm::vec3 &a = mesh_.positions[t.x], &b = mesh_.positions[t.y], &c = mesh_.positions[t.z];
-      if (std::isnan(ProjectedTriangle::from(a, b, c, id).n_u)) continue;
+      if (!has_area(a, b, c)) continue;
       for (const glm::vec3& corner : {a, b, c}) bounds.add(corner);
     }
     return bounds;

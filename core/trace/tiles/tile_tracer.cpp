@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cstring>
 
+#include "core/base/clock.h"
 #include "core/shade/surface.h"
 #include "core/simd/four.h"
 #include "core/trace/view/tile_frustum.h"
@@ -17,21 +17,17 @@ namespace {
 // Pictures of this size are written past the caches: what they hold is needed for the next tiles.
 constexpr std::size_t kStreamedBytes = std::size_t{4} << 20;
 
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 // Seconds since the last call.
 class Lap {
  public:
   double restart() {
-    const double now = seconds(), since = now - last_;
+    const double now = now_s(), since = now - last_;
     last_ = now;
     return since;
   }
 
  private:
-  double last_ = seconds();
+  double last_ = now_s();
 };
 
 // The pixels of a tile along a Z curve: packets of any width are neighbours in the picture.
