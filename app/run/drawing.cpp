@@ -63,6 +63,12 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
         stderr,
         "pinocchio: warning: the background is transparent, but surfaces that blend have alpha 1: only "
         "the CPU drawing alone counts what they let through (--mode raytrace)\n");
+  if (!options.quiet && stats_.studio && !settings_.shadow_catcher.given && settings_.reflects() &&
+      settings_.visibility == Processor::gpu && settings_.composite == Processor::cpu)
+    std::fprintf(
+        stderr,
+        "pinocchio: warning: the studio's ground shadow is left out: it travels with mirrored light, "
+        "which design 2 does not send (--design 1)\n");
   if (!options.quiet && settings_.background_blur > 0.0f &&
       !backdrop_of(scene_, settings_.background).picture)
     std::fprintf(

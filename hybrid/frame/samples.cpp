@@ -44,7 +44,7 @@ TraceOptions trace_options(const Settings& settings, const View& view) {
           .environment_light = settings.environment_light,
           .glossy = settings.glossy,
           .sky_occlusion = settings.sky_occlusion,
-          .sky_bounce = settings.sky_bounce,
+          .sky_bounce = settings.indirect > 0 ? 0.0f : settings.sky_bounce.value,
           .denoise = settings.denoise,
           .glass_shadows = settings.glass_shadows,
           .background = settings.background,

@@ -99,8 +99,12 @@ std::string why_glass(const Settings& s) {
 std::string why_sky(const Settings& s) {
   if (s.environment_light == EnvironmentMethod::sampled)
     return "the environment lights by samples: exact in the mean, with noise";
+  const std::string kept =
+      s.sky_bounce > 0.0f && s.indirect == 0
+          ? ", of whose light " + shortest(s.sky_bounce.value) + " times the albedo stays"
+          : "";
   return "the environment lights by means, without noise; it casts " +
-         (s.sky_occlusion > 0 ? "shadows by " + plural(s.sky_occlusion, "ray") + " a point"
+         (s.sky_occlusion > 0 ? "shadows by " + plural(s.sky_occlusion, "ray") + " a point" + kept
                               : std::string("no shadows")) +
          ", and rough surfaces mirror " + (s.glossy == Glossy::sampled ? "the scene by samples" : "it alone");
 }

@@ -164,7 +164,7 @@ constexpr std::array kTable{
                         "pipelined over several frames, sync for one",
                         "sync: wait for the CPU; pipelined: its part comes frames later, GPU and CPU work on "
                         "different frames; reproject: newest raster, the last mask and reflection warped to "
-                        "it, where a picture is one sample"),
+                        "it, only for pictures of one sample"),
     field<&S::spp>(G::samples, "spp", from_to(1, 65536), "1",
                    "jittered samples a pixel, averaged in linear light"),
     field<&S::max_noise>(
@@ -228,8 +228,8 @@ constexpr std::array kTable{
     field<&S::environment_light>(G::light, "environment_light", one_of(kEnvironmentMethodNames),
                                  "sampled; prefiltered for the studio",
                                  "how the environment lights surfaces: sampled, exact with many samples; "
-                                 "prefiltered, by means, without noise "
-                                 "and without shadows of the sky (docs/environment.md)"),
+                                 "prefiltered, by means, without noise and, unless sky_occlusion is "
+                                 "above 0, without shadows of the sky (docs/environment.md)"),
     field<&S::glossy>(
         G::light, "glossy", one_of(kGlossyNames), "sampled; sharp where the environment is prefiltered",
         "what rough surfaces mirror: sampled, all that their lobes see; sharp, an image that fades "
@@ -238,9 +238,10 @@ constexpr std::array kTable{
         G::light, "sky_occlusion", from_to(0, 64), "0; 8 for the studio",
         "shadow rays at each point that hide a prefiltered environment, about the surface's "
         "normal; 0: it casts no shadows"),
-    field<&S::sky_bounce>(G::light, "sky_bounce", from_to(0, 1), "0; 0.5 for the studio without indirect",
-                          "how much of the light that something hides from a prefiltered environment stays, "
-                          "times the point's albedo: a guess at the light of what hides it"),
+    field<&S::sky_bounce>(
+        G::light, "sky_bounce", from_to(0, 1), "0; 0.5 for the studio without indirect",
+        "share of the prefiltered environment's hidden light that is kept, times the point's albedo: an "
+        "estimate of the light from what hides it; no effect where sky_occlusion is 0 or with indirect"),
     field<&S::glass_shadows>(
         G::light, "glass_shadows", one_of(kGlassShadowsNames), glass_shadows_name(kUsualGlassShadows),
         "shadow rays at glass: opaque: they end, and glass casts a full shadow; tinted: they continue "

@@ -176,10 +176,6 @@ std::vector<std::string> losses(const Settings& s, const SceneStats& stats) {
     lines.emplace_back("reflection none: light from other surfaces is left out");
   if (s.reflection.given && !s.reflects() && s.shadow_catcher.value.kind != ShadowCatcher::Kind::off)
     lines.emplace_back("reflection none: the shadow catcher catches nothing");
-  if (stats.studio && !s.shadow_catcher.given && s.shadow_catcher.value.kind == ShadowCatcher::Kind::off)
-    lines.emplace_back(
-        "the studio's ground shadow is left out: it travels with mirrored light, which this plan does not "
-        "send");
   return lines;
 }
 

@@ -179,9 +179,8 @@ class SceneReader {
   void add_light(const Json& json, const GltfNode& node, const glm::mat4& world) {
     Light light = light_of(json, node, world);
     const std::string where = "light '" + light.name + "'";
-    const glm::vec3 shines = light.intensity * light.color;
-    if (std::min({shines.r, shines.g, shines.b}) < 0.0f) {
-      warn(where, "has a negative intensity or colour", "what is below 0 is dark");
+    if (std::min({light.intensity, light.color.r, light.color.g, light.color.b}) < 0.0f) {
+      warn(where, "has a negative intensity or colour", "negative values are read as 0");
       light.intensity = std::max(light.intensity, 0.0f);
       light.color = glm::max(light.color, 0.0f);
     }

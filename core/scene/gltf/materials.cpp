@@ -48,6 +48,7 @@ GltfSurface surface_of(const Json& json, Material& material) {
     s.emissive = within(glm::vec3(e[0], e[1], e[2]), kGltfFactor);
   const Json* const emission = extension(&json, "KHR_materials_emissive_strength");
   s.emissive *= within(value_member<float>(emission, "emissiveStrength").value_or(1.0f), kGltfFactor);
+  s.emissive = within(s.emissive, kGltfFactor);
   s.volume = value_member<float>(extension(&json, "KHR_materials_volume"), "thicknessFactor") > 0.0f;
   s.unlit = extension(&json, "KHR_materials_unlit") != nullptr;
   return s;
@@ -122,7 +123,7 @@ MaterialMaps maps_of(const GltfFile& file, const Json& json) {
     maps.*row.use = use_of(file, info);
     if (row.factor) {
       float& factor = maps.*row.factor_value;
-      factor = value_member<float>(info, row.factor).value_or(factor);
+      factor = within(value_member<float>(info, row.factor).value_or(factor), row.factor_range);
     }
   }
   const Json* const of_coat = find_at(&json, "/extensions/KHR_materials_clearcoat/clearcoatNormalTexture");
@@ -139,9 +140,9 @@ MaterialMaps maps_of(const GltfFile& file, const Json& json) {
   if (maps.alpha_mode == AlphaMode::opaque) return maps;
   maps.alpha = maps.base_color;
   maps.alpha_cutoff = value_member<float>(&json, "alphaCutoff").value_or(maps.alpha_cutoff);
-  maps.alpha_factor = base_color_of(json).a;
+  maps.alpha_factor = within(base_color_of(json).a, kGltfShare);
   if (const std::vector<double> diffuse = numbers_member(other, "diffuseFactor"); other)
-    maps.alpha_factor = diffuse.size() == 4 ? as_float(diffuse[3]) : 1.0f;
+    maps.alpha_factor = within(diffuse.size() == 4 ? as_float(diffuse[3]) : 1.0f, kGltfShare);
   // A material that blends with alpha 1 everywhere is opaque.
   if (maps.blends() && maps.alpha_factor >= 1.0f && !maps.alpha.used()) maps.alpha_mode = AlphaMode::opaque;
   return maps;

@@ -37,7 +37,7 @@ glm::vec3 color(std::string_view line) {
   std::array<float, 3> rgb{};
   const int count = cut_numbers(line, rgb);
   if (count == 1) rgb[1] = rgb[2] = rgb[0];
-  return glm::max(glm::vec3(rgb[0], rgb[1], rgb[2]), 0.0f);
+  return glm::clamp(glm::vec3(rgb[0], rgb[1], rgb[2]), 0.0f, 1e6f);
 }
 
 // Options that take numbers, and those that take a word.

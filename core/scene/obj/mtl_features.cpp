@@ -51,8 +51,9 @@ void add_lost_mtl_features(const std::filesystem::path& file, std::string_view t
         while (is_number(word = next_word(rest)) && !word.empty()) line = rest;
         if (word == "on" || word == "off" || word.size() == 1) line = rest;
       }
-    } else if (keyword.starts_with('K') && has_negative(line)) {
-      warnings.add({file.string(), where, std::string(keyword) + " is negative", "it is read as 0"});
+    } else if ((keyword.starts_with('K') || keyword == "Tf") && has_negative(line)) {
+      warnings.add(
+          {file.string(), where, std::string(keyword) + " is negative", "negative values are read as 0"});
     } else if (const std::string_view value = next_word(line); value == "spectral" || value == "xyz") {
       warnings.add(
           {file.string(), where, "a colour as '" + std::string(value) + "' is left out", "it is black"});

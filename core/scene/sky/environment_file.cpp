@@ -43,8 +43,8 @@ void repair(const std::filesystem::path& file, Image<glm::vec3>& image, Warnings
     for (glm::vec3& pixel : image.pixels())
       for (int c = 0; c < 3; ++c)
         if (pixel[c] < 0.0f && std::isfinite(pixel[c])) pixel[c] = 0.0f;
-    warnings.add(
-        {file.string(), "", std::to_string(negative) + " pixels are negative", "they are read as 0"});
+    warnings.add({file.string(), "", "holds negative light (" + std::to_string(negative) + " pixel(s))",
+                  "negative components are read as 0"});
   }
   if (not_numbers + infinite == 0) return;
   for (glm::vec3& pixel : image.pixels())

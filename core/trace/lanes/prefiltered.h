@@ -11,15 +11,15 @@ namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
 // Directions about +Z by the cosine, evenly spread. Each pixel has its own, spread together with its
-// neighbours' (sampling.glsl): where shadows of the same directions overlap, their edges show. Samples turn
-// them; every fourth moves them in or out.
+// neighbours' (sampling.glsl): with the same directions at all pixels, the edges of overlapping shadows would
+// show. Samples turn them; every fourth moves them in or out.
 class SkyRays {
  public:
-  SkyRays(const whole2& pixel, std::uint32_t sample, int rays) : rays_(Float(as_float(rays))) {
-    constexpr std::uint32_t kSeed = 0x5ca1ab1eu;
-    const vec2 moved = vec2(scrambled_sobol(z_order(pixel), Int(kSeed)) >> 8u) * (1.0f / 16777216.0f);
-    turn_ = moved.x + Float(0.754878f * as_float(sample & 0xffffu));
-    const Float inside = moved.y + Float(0.569840f * as_float(sample >> 2u & 0xffffu));
+  SkyRays(const whole2& pixel, const Sampling& sampling, int rays) : rays_(Float(as_float(rays))) {
+    const std::uint32_t seed = shared::mixed_bits(sampling.seed ^ 0x5ca1ab1eu);
+    const vec2 moved = vec2(scrambled_sobol(z_order(pixel), Int(seed)) >> 8u) * (1.0f / 16777216.0f);
+    turn_ = moved.x + Float(0.754878f * as_float(sampling.index & 0xffffu));
+    const Float inside = moved.y + Float(0.569840f * as_float(sampling.index >> 2u & 0xffffu));
     inside_ = inside - floor(inside);
   }
   [[nodiscard]] Vec direction(int k) const {
@@ -101,9 +101,10 @@ struct SkyLight {
   }
   if (any(phong & (m.specular != Vec(zero)))) {
     const Float alpha = alpha_of_phong(max(m.shininess, one));
+    const Vec albedo = phong_albedo(m) * brdf_share(m);
     sky.alpha = select(phong, max(alpha, Float(kLeastLobe)), sky.alpha);
-    sky.mirrored =
-        select(phong, light_of_lobe(e, direction, alpha, phong) * phong_albedo(m) * brdf_share(m), Vec(zero));
+    sky.albedo = select(phong, sky.albedo + albedo, sky.albedo);
+    sky.mirrored = select(phong, light_of_lobe(e, direction, alpha, phong) * albedo, Vec(zero));
   }
   const Mask lit = microfacet & ~Mask::from_bits(m.transmits);
   if (!lobes && any(lit)) {
@@ -140,17 +141,18 @@ inline Float lobe_weight(Float alpha, const Vec& axis, const Vec& direction) {
 
 // Shadow rays that carry the sky's light: one along the mirrored light's axis, the others by the cosine about
 // the normal. These share matt light evenly, and mirrored light with the first by the lobe's width.
-// TraceOptions::sky_bounce of the light needs no ray.
+// The share that TraceOptions::sky_bounce keeps is added without a ray.
 [[gnu::noinline]] void hide_sky(const Bounce& bounce, const LaneSurface& s, const SkyLight& sky,
                                 const Vec& throughput, Int pixel, Mask lanes) {
+  const Mask worth =
+      lanes & ~(largest(throughput * (sky.matt + sky.mirrored)) < Float(bounce.options->throughput_cutoff));
   const auto fire = [&](const Vec& direction, const Vec& light) {
-    const Mask lit = lanes & (light != Vec(0.0f)) & (Float(0.0f) < dot(direction, s.n_geometric)) &
-                     ~(largest(light) < Float(bounce.options->throughput_cutoff));
+    const Mask lit = worth & (light != Vec(0.0f)) & (Float(0.0f) < dot(direction, s.n_geometric));
     if (any(lit))
       append_shadow_ray(s, offset_origin(s, direction), direction, light, pixel, lit, *bounce.sky);
   };
   const int rays = bounce.options->sky_occlusion;
-  const SkyRays about(whole_picture_pixel(bounce, pixel), bounce.options->sampling.index, rays);
+  const SkyRays about(whole_picture_pixel(bounce, pixel), bounce.options->sampling, rays);
   const Vec one(Float(1.0f)), kept = min(sky.albedo, one) * Float(bounce.options->sky_bounce);
   const Vec hidden = one - kept;
   if (any(lanes & (kept != Vec(0.0f))))

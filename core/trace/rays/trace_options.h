@@ -41,8 +41,8 @@ struct TraceOptions {
   EnvironmentMethod environment_light = EnvironmentMethod::sampled;
   Glossy glossy = Glossy::sampled;
   int sky_occlusion = 0;  // shadow rays about the normal for a prefiltered environment; 0: it casts none
-  // Of the light that something hides from the prefiltered environment, this share of the point's albedo
-  // stays: a guess at the light of what hides it.
+  // Share of the prefiltered environment's hidden light that is kept, times the point's albedo: an estimate
+  // of the light that comes from what hides it.
   float sky_bounce = 0.0f;
   bool denoise = false;  // light that is found at random is kept apart for the filter (core/denoise)
   GlassShadows glass_shadows = kUsualGlassShadows;

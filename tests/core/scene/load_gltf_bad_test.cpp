@@ -89,20 +89,21 @@ TEST(LoadGltfBad, NumbersOutOfRangeAreClampedWithAWarning) {
     Json value;
     std::string message;
   };
-  const std::string material = "/materials/0/", within = "; the nearest value within is used";
+  const std::string material = "/materials/0/", allowed = "; the nearest allowed value is used";
   for (const auto& [pointer, value, message] :
-       {Case{"pbrMetallicRoughness/metallicFactor", 1e300, "metallicFactor is not within 0 and 1"},
-        Case{"pbrMetallicRoughness/roughnessFactor", -0.5, "roughnessFactor is not within 0 and 1"},
+       {Case{"pbrMetallicRoughness/metallicFactor", 1e300, "metallicFactor is not between 0 and 1"},
+        Case{"pbrMetallicRoughness/roughnessFactor", -0.5, "roughnessFactor is not between 0 and 1"},
         Case{"pbrMetallicRoughness/baseColorFactor",
              {1, -1, 1, 1},
-             "baseColorFactor is not within 0 and 1e+06"},
-        Case{"emissiveFactor", {0, 0, 1e300}, "emissiveFactor is not within 0 and 1e+06"},
+             "baseColorFactor is not between 0 and 1e+06"},
+        Case{"emissiveFactor", {0, 0, 1e300}, "emissiveFactor is not between 0 and 1e+06"},
         Case{"extensions/KHR_materials_emissive_strength/emissiveStrength", -5,
-             "emissiveStrength is not within 0 and 1e+06"},
+             "emissiveStrength is not between 0 and 1e+06"},
         Case{"extensions/KHR_materials_transmission/transmissionFactor", 5,
-             "transmissionFactor is not within 0 and 1"},
-        Case{"extensions/KHR_materials_ior/ior", -1, "ior is not within 0 and 1e+06"},
-        Case{"extras/pinocchio/phong/kd", {-1, 0, 0}, "kd is not within 0 and 1e+06"}}) {
+             "transmissionFactor is not between 0 and 1"},
+        Case{"extensions/KHR_materials_ior/ior", -1, "ior is not between 0 and 1e+06"},
+        Case{"occlusionTexture", {{"index", 0}, {"strength", 5}}, "strength is not between 0 and 1"},
+        Case{"extras/pinocchio/phong/kd", {-1, 0, 0}, "kd is not between 0 and 1e+06"}}) {
     Json json = triangle_json();
     json["meshes"][0]["primitives"][0]["material"] = 0;
     json[Json::json_pointer(material + pointer)] = value;
@@ -110,7 +111,7 @@ TEST(LoadGltfBad, NumbersOutOfRangeAreClampedWithAWarning) {
     const Expected<Scene> scene = load(json, &warnings);
     ASSERT_TRUE(scene) << pointer;
     ASSERT_FALSE(warnings.empty()) << pointer;
-    EXPECT_NE(warnings.begin()->message().find("material 0: its " + message + within), std::string::npos)
+    EXPECT_NE(warnings.begin()->message().find("material 0: its " + message + allowed), std::string::npos)
         << warnings.begin()->message();
     const Material& m = scene->mesh->material_of(0);
     for (const glm::vec3& part : {m.diffuse, m.specular, m.emission, m.transmittance}) {

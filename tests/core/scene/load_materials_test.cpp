@@ -127,9 +127,10 @@ TEST(LoadMaterials, MtlStatements) {
 TEST(LoadMaterials, MtlColoursAreNotNegative) {
   EXPECT_EQ(read_materials("newmtl odd\nKd -1 0.5 -0.25\n").at(0).kd, glm::vec3(0, 0.5f, 0));
   Warnings warnings;
-  add_lost_mtl_features("odd.mtl", "newmtl odd\nKd -1 0.5 -0.25\nKs 0 -0 0\n", warnings);
-  ASSERT_EQ(std::distance(warnings.begin(), warnings.end()), 1);
-  EXPECT_NE(warnings.begin()->message().find("line 2: Kd is negative; it is read as 0"), std::string::npos)
+  add_lost_mtl_features("odd.mtl", "newmtl odd\nKd -1 0.5 -0.25\nKs 0 -0 0\nTf 1 -1 1\n", warnings);
+  ASSERT_EQ(std::distance(warnings.begin(), warnings.end()), 2);
+  EXPECT_NE(warnings.begin()->message().find("line 2: Kd is negative; negative values are read as 0"),
+            std::string::npos)
       << warnings.begin()->message();
 }
 

@@ -194,10 +194,10 @@ class FeatureAudit {
       lost(where, "its " + last_name(at) + " has the wrong type", "the default is used");
     };
     const auto clamped = [&](std::string_view at, const GltfRange& range) {
-      lost(
-          where,
-          "its " + last_name(at) + " is not within " + shortest(range.least) + " and " + shortest(range.most),
-          "the nearest value within is used");
+      lost(where,
+           "its " + last_name(at) + " is not between " + shortest(range.least) + " and " +
+               shortest(range.most),
+           "the nearest allowed value is used");
     };
     for (const TypedMember& row : kTypedMembers) {
       const Json* const value = find_at(&material, row.at);
@@ -221,9 +221,11 @@ class FeatureAudit {
       const Json* const texture = find_at(&material, row.at);
       if (!texture) continue;
       check_texture(index, *texture, "its " + last_name(row.at), where);
-      if (const Json* factor = row.factor ? member(texture, row.factor) : nullptr;
-          factor && !factor->is_number())
+      const Json* const factor = row.factor ? member(texture, row.factor) : nullptr;
+      if (factor && !factor->is_number())
         wrong_type(row.factor);
+      else if (factor && !is_in_range(*factor, row.factor_range))
+        clamped(row.factor, row.factor_range);
     }
     const Json* const of_coat =
         find_at(&material, "/extensions/KHR_materials_clearcoat/clearcoatNormalTexture");

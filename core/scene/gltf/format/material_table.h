@@ -12,7 +12,7 @@
 
 namespace pinocchio {
 
-// Numbers beyond are clamped, with a warning.
+// Allowed values of a parameter; others are clamped, with a warning.
 struct GltfRange {
   float least = 0.0f, most = 1e6f;
 
@@ -68,12 +68,13 @@ struct GltfTexture {
   // How much the texture counts: a member of its JSON. Null: it has none.
   const char* factor = nullptr;
   float MaterialMaps::*factor_value = nullptr;
+  GltfRange factor_range = kGltfShare;
 };
 
 inline constexpr GltfTexture kGltfTextures[] = {
     {"/pbrMetallicRoughness/baseColorTexture", &MaterialMaps::base_color},
     {"/pbrMetallicRoughness/metallicRoughnessTexture", &MaterialMaps::metallic_roughness},
-    {"/normalTexture", &MaterialMaps::normal, "scale", &MaterialMaps::normal_scale},
+    {"/normalTexture", &MaterialMaps::normal, "scale", &MaterialMaps::normal_scale, {-1e6f, 1e6f}},
     {"/occlusionTexture", &MaterialMaps::occlusion, "strength", &MaterialMaps::occlusion_strength},
     {"/emissiveTexture", &MaterialMaps::emissive},
     {"/extensions/KHR_materials_specular/specularTexture", &MaterialMaps::specular},
@@ -90,7 +91,7 @@ inline constexpr GltfTexture kGltfTextures[] = {
 // Whether some row is part of the extension.
 [[nodiscard]] bool is_in_material_table(std::string_view extension);
 
-// Whether the file's value is one of a parameter, or could be used.
+// What became of the file's value.
 enum class GltfValue { fits, clamped, wrong_type };
 
 // Sets the row's member to the file's value, if there is one.

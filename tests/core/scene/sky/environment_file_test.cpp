@@ -121,7 +121,8 @@ TEST(EnvironmentFile, NegativeLightIsReadAsNoneAndSaid) {
   ASSERT_TRUE(sky) << sky.error().message();
   EXPECT_EQ((*sky)->radiance().at(3, 0), glm::vec3(0.0f, 0.5f, 0.5f));
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].message().find("negative.exr: 1 pixels are negative; they are read as 0"),
+  EXPECT_NE(warnings[0].message().find(
+                "negative.exr: holds negative light (1 pixel(s)); negative components are read as 0"),
             std::string::npos)
       << warnings[0].message();
 }
