@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <set>
 
 #include "core/math/finite.h"
@@ -110,9 +111,9 @@ TEST(LoadGltfBad, NumbersOutOfRangeAreClampedWithAWarning) {
     Warnings warnings;
     const Expected<Scene> scene = load(json, &warnings);
     ASSERT_TRUE(scene) << pointer;
-    ASSERT_FALSE(warnings.empty()) << pointer;
-    EXPECT_NE(warnings.begin()->message().find("material 0: its " + message + allowed), std::string::npos)
-        << warnings.begin()->message();
+    EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [&](const Warning& warning) {
+      return warning.message().find("material 0: its " + message + allowed) != std::string::npos;
+    })) << pointer;
     const Material& m = scene->mesh->material_of(0);
     for (const glm::vec3& part : {m.diffuse, m.specular, m.emission, m.transmittance}) {
       EXPECT_TRUE(is_finite(part)) << pointer;
