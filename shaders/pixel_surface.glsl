@@ -36,8 +36,9 @@ uint fetch_id(usampler2D from, ivec2 pixel) {
 #endif
 }
 
-// RGB that travelled as three texels a pixel.
-vec3 fetch_rgb(sampler2D from, ivec2 pixel) {
+// RGB that travelled as one texel a pixel, or as three.
+vec3 fetch_rgb(sampler2D from, ivec2 pixel, int texels) {
+  if (texels == 1) return texelFetch(from, pixel, 0).rgb;
   ivec2 at = ivec2(3 * pixel.x, pixel.y);
   return vec3(texelFetch(from, at, 0).r, texelFetch(from, at + ivec2(1, 0), 0).r, texelFetch(from, at + ivec2(2, 0), 0).r);
 }

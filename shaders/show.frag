@@ -11,10 +11,6 @@ out vec4 color;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-#if FINISHED_TEXELS == 1
-  vec3 light = texelFetch(finished, pixel, 0).rgb;
-#else
-  vec3 light = fetch_rgb(finished, pixel);
-#endif
-  color = vec4(linear_from_srgb(light), fetch_id(ids, pixel) == kNoTriangle ? 0.0 : 1.0);
+  vec3 light = linear_from_srgb(fetch_rgb(finished, pixel, FINISHED_TEXELS));
+  color = vec4(light, fetch_id(ids, pixel) == kNoTriangle ? 0.0 : 1.0);
 }

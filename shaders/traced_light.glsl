@@ -87,11 +87,7 @@ vec3 reflection_at(ivec2 at) {
   int columns = textureSize(reflection_tiles, 0).x;
   at += REFLECTION_TILE * (ivec2(int(tile) % columns, int(tile) / columns) - cell);
 #endif
-#if REFLECTION_TEXELS == 1
-  vec3 light = texelFetch(reflection, at, 0).rgb;
-#else
-  vec3 light = fetch_rgb(reflection, at);
-#endif
+  vec3 light = fetch_rgb(reflection, at, REFLECTION_TEXELS);
 #ifdef REFLECTION_IS_SRGB
   light = linear_from_srgb(light);
 #endif

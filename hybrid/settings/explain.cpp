@@ -99,14 +99,14 @@ std::string why_glass(const Settings& s) {
 std::string why_sky(const Settings& s) {
   if (s.environment_light == EnvironmentMethod::sampled)
     return "the environment lights by samples: exact in the mean, with noise";
-  const std::string kept =
-      s.sky_bounce > 0.0f && s.indirect == 0
-          ? ", of whose light " + shortest(s.sky_bounce.value) + " times the albedo stays"
-          : "";
-  return "the environment lights by means, without noise; it casts " +
-         (s.sky_occlusion > 0 ? "shadows by " + plural(s.sky_occlusion, "ray") + " a point" + kept
-                              : std::string("no shadows")) +
-         ", and rough surfaces mirror " + (s.glossy == Glossy::sampled ? "the scene by samples" : "it alone");
+  std::string shadows = "without noise; it casts no shadows";
+  if (s.sky_occlusion > 0) {
+    shadows = "and casts shadows by " + plural(s.sky_occlusion, "ray") + " a point";
+    if (s.sky_bounce > 0.0f && s.indirect == 0)
+      shadows += ", which keep " + shortest(s.sky_bounce.value) + " times the albedo of the hidden light";
+  }
+  return "the environment lights by means " + shadows + "; rough surfaces mirror " +
+         (s.glossy == Glossy::sampled ? "the scene by samples" : "it alone");
 }
 
 std::string why_denoise(const Settings& s) {

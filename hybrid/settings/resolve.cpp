@@ -88,12 +88,12 @@ void make_way_for_lights(const SceneStats& stats, Settings& s) {
 // What is behind the scene. Where the background is transparent, surfaces that blend are, too: by coverage,
 // which the CPU counts where it may draw alone. The shadow catcher's share of light travels with mirrored
 // light, which design 2 does not send.
-void fill_background(const SceneStats& stats, Settings& s) {
+void fill_background(const SceneStats& stats, const Circumstances& c, Settings& s) {
   if (stats.studio) s.background.fill({Background::Kind::studio});
   const bool gpu_given = (s.visibility.given && s.visibility == Processor::gpu) ||
                          (s.composite.given && s.composite == Processor::gpu);
   if (s.background.value.is_transparent() && stats.blends && !gpu_given) s.coverage.fill(true);
-  const bool travels = s.visibility == Processor::cpu || s.composite == Processor::gpu;
+  const bool travels = c.needs_rays || s.visibility == Processor::cpu || s.composite == Processor::gpu;
   const bool reflects = !s.reflection.given || s.reflects();
   if (stats.studio && travels && reflects) s.shadow_catcher.fill({ShadowCatcher::Kind::lowest});
   if (s.shadow_catcher.value.kind == ShadowCatcher::Kind::lowest)
@@ -122,7 +122,7 @@ Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, co
   if (s.environment_light == EnvironmentMethod::prefiltered) s.glossy.fill(Glossy::sharp);
   s.id_bits.fill(stats.triangles < kMost16BitIds ? 16 : 32);
   s.mask_bits.fill(mask_bits_for(stats.casting_lights));
-  fill_background(stats, s);
+  fill_background(stats, c, s);
   fill_depth(stats, s);
   choose_processors(c, s);
   if (s.coverage) {

@@ -8,27 +8,29 @@
 
 namespace pinocchio::python {
 
-Camera camera_of(const Scene& scene, const CameraChoice& choice) {
-  if (const auto* camera = std::get_if<Camera>(&choice)) return *camera;
+namespace {
+
+// Which of the scene's cameras is chosen; none: another camera is.
+std::optional<std::size_t> number_of(const Scene& scene, const CameraChoice& choice) {
   if (const auto* name = std::get_if<std::string>(&choice)) {
-    if (const Camera* found = find_camera(scene, *name)) return *found;
+    if (const Camera* found = find_camera(scene, *name)) return as_size(found - scene.cameras.data());
     throw Error("the scene has no camera '" + *name + "'; Scene.cameras lists them");
   }
   if (const int* index = std::get_if<int>(&choice)) {
-    if (*index >= 0 && as_size(*index) < scene.cameras.size()) return scene.cameras[as_size(*index)];
+    if (*index >= 0 && as_size(*index) < scene.cameras.size()) return as_size(*index);
     throw Error("the scene has no camera " + std::to_string(*index) + ", there are " +
                 std::to_string(scene.cameras.size()));
   }
-  return scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front();
+  if (std::holds_alternative<Camera>(choice) || scene.cameras.empty()) return std::nullopt;
+  return 0;
 }
 
-// Which of the scene's cameras it is; none: the camera is not the scene's.
-std::optional<std::size_t> number_of(const Scene& scene, const CameraChoice& choice) {
-  if (std::holds_alternative<Camera>(choice)) return std::nullopt;
-  if (const int* index = std::get_if<int>(&choice)) return as_size(*index);
-  if (const auto* name = std::get_if<std::string>(&choice))
-    return as_size(find_camera(scene, *name) - scene.cameras.data());
-  return scene.cameras.empty() ? std::nullopt : std::optional<std::size_t>(0);
+}  // namespace
+
+Camera camera_of(const Scene& scene, const CameraChoice& choice) {
+  if (const auto* camera = std::get_if<Camera>(&choice)) return *camera;
+  const std::optional<std::size_t> own = number_of(scene, choice);
+  return own ? scene.cameras[*own] : camera_for_whole_scene(scene);
 }
 
 Scene lit(const Scene& scene, const Camera& camera) {
@@ -105,8 +107,11 @@ Poses poses_of(const Scene& scene, const std::vector<CameraChoice>& choices,
   }
   for (std::size_t i = 0; i < given.size(); ++i) {
     const CameraChoice& choice = choices[choices.size() == 1 ? 0 : i];
-    PosedPicture picture{poses.moves[of_picture[i]], camera_of(scene, choice)};
-    if (const std::optional<std::size_t> own = number_of(scene, choice)) picture.camera = *own;
+    PosedPicture picture{poses.moves[of_picture[i]]};
+    if (const std::optional<std::size_t> own = number_of(scene, choice))
+      picture.camera = *own;
+    else
+      picture.camera = camera_of(scene, choice);
     poses.pictures.push_back(std::move(picture));
   }
   return poses;

@@ -316,6 +316,9 @@ TEST_F(OutputsTest, BackgroundsThatCannotBeSayWhatCan) {
   expect("render t.obj --preview t.png --background 1,2", 2, "'1,2' is not environment, studio, transparent");
   expect("render t.obj --preview t.png --shadow-catcher=deep", 2, "'deep' is not off, lowest or a height");
   expect("render t.obj --preview t.png --shadow-catcher 0 --design 2", 2, "shadow_catcher does not travel");
+  expect("render t.obj --size 32x24 --preview t.png --design 2", 0, "the studio's ground shadow is left out");
+  EXPECT_EQ(run("render t.obj --size 32x24 --preview t.png --mode raster").err.find("ground shadow"),
+            std::string::npos);
   expect("info t.obj --plan --background transparent", 0, "behind the scene is nothing");
   const std::string render = "render t.obj --mode raytrace --size 32x24 --preview t.png --background-blur ";
   expect(render + "2", 2, "'2' is not a number from 0 to 1");

@@ -21,13 +21,14 @@ TEST(Formats, NarrowIdsAreWidened) {
 TEST(Formats, RadianceIsRoundedToNearestAndStaysFinite) {
   Image<glm::vec3> radiance({3, 2}, glm::vec3(0.0f));
   radiance[1] = {1.0f / 3.0f, 1e9f, 1e-9f};
-  radiance[5] = {2.5f, -1.0f, 65504.0f};
+  radiance[5] = {-1e9f, -1.0f, 65504.0f};
   std::vector<std::byte> bytes(6 * 6);
   Workers workers(2);
   pack_radiance(radiance, ReflectionFormat::half, workers, bytes);
   const auto* halves = reinterpret_cast<const std::uint16_t*>(bytes.data());
   EXPECT_EQ(halves[3], glm::packHalf1x16(1.0f / 3.0f));
   EXPECT_EQ(glm::unpackHalf1x16(halves[4]), 65504.0f);
+  EXPECT_EQ(glm::unpackHalf1x16(halves[15]), -65504.0f);
   EXPECT_EQ(glm::unpackHalf1x16(halves[16]), -1.0f);
 }
 

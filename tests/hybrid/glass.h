@@ -60,6 +60,13 @@ inline ReferencePicture precise(const Scene& scene, glm::ivec2 size = kSize,
                           {.glass_shadows = shadows});
 }
 
+// The sum over the picture of light, red, green and blue.
+inline glm::dvec3 sum_of(const Image<glm::vec4>& picture) {
+  glm::dvec3 sum(0.0);
+  for (const glm::vec4& c : picture.pixels()) sum += glm::dvec3(c);
+  return sum;
+}
+
 inline glm::vec3 middle(const Image<glm::vec4>& picture) {
   return glm::vec3(picture.at(picture.width() / 2, picture.height() / 2));
 }

@@ -114,7 +114,7 @@ TEST(Prefiltered, ABallIsLitAsBySamples) {
   expect_near(gltf(0.0f, 0.6f, 1.0f), 0.04, 0.06, "coat");
 }
 
-TEST(Prefiltered, HasNoNoiseAndTheSameBitsByAnyLanes) {
+TEST(Prefiltered, HasNoNoiseWithoutShadowRaysAndTheSameBitsByAnyLanes) {
   const Scene scene = ball(gltf(0.5f, 0.4f, 0.5f));
   for (const int occlusion : {0, 3}) {
     DrawRequest request{.settings = prefiltered_light(), .size = {64, 64}};
@@ -147,21 +147,29 @@ TEST(Prefiltered, HybridIsRaytrace) {
   }
 }
 
-// A floor in the corner of two walls: what the walls hide counts only with shadow rays.
-TEST(Prefiltered, ShadowRaysHideTheSky) {
+struct Box {
+  glm::vec3 lo, hi;
+};
+
+// Boxes in an even sky of 1.
+Scene boxes(const Material& of, std::initializer_list<Box> all, const Camera& camera) {
   MeshData mesh;
   MeshBuilder builder(mesh);
-  builder.use(phong(0.0f, 1.0f));
-  builder.box({-1, -0.1f, -1}, {1, 0, 1});
-  builder.box({-1, 0, -1}, {-0.9f, 1.5f, 1});
-  builder.box({-1, 0, -1}, {1, 1.5f, -0.9f});
+  builder.use(of);
+  for (const Box& box : all) builder.box(box.lo, box.hi);
   Scene scene(mesh);
   scene.ambient_light = glm::vec3(0.0f);
   scene.environment = std::make_shared<const Environment>(Image<glm::vec3>({16, 8}, glm::vec3(1.0f)));
-  Camera camera;
-  camera.eye = {2.5f, 2, 2.5f};
-  camera.target = {0, 0.3f, 0};
   scene.cameras = {camera};
+  return scene;
+}
+
+// A floor in the corner of two walls: what the walls hide counts only with shadow rays.
+TEST(Prefiltered, ShadowRaysHideTheSky) {
+  const Scene scene =
+      boxes(phong(0.0f, 1.0f),
+            {{{-1, -0.1f, -1}, {1, 0, 1}}, {{-1, 0, -1}, {-0.9f, 1.5f, 1}}, {{-1, 0, -1}, {1, 1.5f, -0.9f}}},
+            {.name = "near", .eye = {2.5f, 2, 2.5f}, .target = {0, 0.3f, 0}});
   DrawRequest request{.settings = sampled_light(256), .size = {96, 96}};
   const FrameResult truth = draw_one(scene, request);
   request.settings = prefiltered_light();
@@ -180,19 +188,9 @@ TEST(Prefiltered, ShadowRaysHideTheSky) {
 // A box of rough metal on a metal floor: what the floor hides of the mirrored light is a share, not all or
 // none.
 TEST(Prefiltered, WideLobesAreHiddenByDegrees) {
-  MeshData mesh;
-  MeshBuilder builder(mesh);
-  builder.use(gltf(1.0f, 0.6f));
-  builder.box({-2, -0.1f, -2}, {2, 0, 2});
-  builder.box({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f});
-  Scene scene(mesh);
-  scene.ambient_light = glm::vec3(0.0f);
-  scene.environment = std::make_shared<const Environment>(Image<glm::vec3>({16, 8}, glm::vec3(1.0f)));
-  Camera camera;
-  camera.eye = {0, 0.6f, 2.5f};
-  camera.target = {0, 0.5f, 0};
-  camera.fov_deg = 30.0f;
-  scene.cameras = {camera};
+  const Scene scene =
+      boxes(gltf(1.0f, 0.6f), {{{-2, -0.1f, -2}, {2, 0, 2}}, {{-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}}},
+            {.name = "near", .eye = {0, 0.6f, 2.5f}, .target = {0, 0.5f, 0}, .fov_deg = 30.0f});
   DrawRequest request{.settings = prefiltered_light(), .size = {64, 64}};
   request.settings.sky_occlusion = 16;
   request.settings.spp = 16;
@@ -210,7 +208,7 @@ TEST(Prefiltered, WideLobesAreHiddenByDegrees) {
     EXPECT_GT(here, 0.5 * above) << height;
     above = here;
   }
-  // What stays of the hidden light.
+  // sky_bounce brightens what is hidden, not beyond its light without shadows.
   request.settings.sky_bounce = 0.5f;
   const FrameResult bounced = draw_one(scene, request);
   EXPECT_GT(row(0.1f, bounced), 1.1 * row(0.1f, dark));

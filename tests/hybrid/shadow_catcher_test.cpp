@@ -177,6 +177,9 @@ TEST(ShadowCatcherPicture, StudioHasItWhereItTravels) {
   EXPECT_EQ(usual.background.value.kind, Background::Kind::studio);
   EXPECT_EQ(resolved(by({{"mode", "raster"}})).shadow_catcher.value, ShadowCatcher{});
   EXPECT_EQ(resolved(by({{"design", "2"}})).shadow_catcher.value, ShadowCatcher{});
+  // Drawn by the CPU alone.
+  EXPECT_EQ(resolve(by({{"design", "2"}}), stats, {.needs_rays = true}).value().shadow_catcher.value,
+            usual.shadow_catcher.value);
   Settings off;
   off.shadow_catcher = ShadowCatcher{};
   EXPECT_EQ(resolved(off).shadow_catcher.value, ShadowCatcher{});

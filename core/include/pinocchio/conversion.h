@@ -5,8 +5,8 @@
 
 namespace pinocchio {
 
-// Casts between types of numbers; the caller knows that the value fits. Always inlined: translation
-// units for one instruction set must not lend their code to others.
+// Casts between types of numbers; the caller knows that the value fits. Always inlined: a copy that
+// is compiled for one instruction set must not be linked where code for others calls it.
 template <class T>
 [[nodiscard, gnu::always_inline]] constexpr std::size_t as_size(T value) {
   return static_cast<std::size_t>(value);

@@ -94,7 +94,7 @@ class WideWaiting {
   [[nodiscard]] bool is_empty() const { return last_ == 0; }
   // As WideNode::child.
   [[nodiscard]] std::uint32_t pop() { return at_[last_--]; }
-  // What the next pop() returns; where nothing is left, the root.
+  // The entry that the next pop() returns; the root where the stack is empty.
   [[nodiscard]] std::uint32_t next() const { return at_[last_]; }
 
   // Adds those of the kWidth children from number `first` on that are met, unsorted and without their t.

@@ -7,6 +7,7 @@
 
 #include "hybrid/exchange/channels.h"
 #include "pinocchio/nodes.h"
+#include "pinocchio/studio.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
@@ -20,6 +21,19 @@ Settings by_mode(std::string_view mode) {
   Settings settings;
   EXPECT_TRUE(apply_preset("mode", mode, settings));
   return settings;
+}
+
+TEST(Resolve, TheTableNamesTheStudiosValues) {
+  Scene scene = plate_with_lights(0, 0, false);
+  scene.lights.clear();
+  add_studio_light(scene);
+  const Settings studio = settings_for(scene);
+  for (const char* name : {"environment_light", "sky_occlusion", "sky_bounce"}) {
+    const Field* const field = find_field(name);
+    ASSERT_TRUE(field) << name;
+    EXPECT_NE(field->unset.find("; " + field->text(studio) + " for the studio"), std::string_view::npos)
+        << field->unset;
+  }
 }
 
 TEST(Resolve, ModelsWhatTheSceneNeeds) {
