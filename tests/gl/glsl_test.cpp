@@ -111,7 +111,8 @@ TEST_F(GlslTest, EveryVariantIsGlslToTheLetter) {
       add("inspect.frag", joined({ids(), terminator(), traced, shown}));
     }
   for (const Definitions& bits : kIds) {
-    add("show.frag", bits);
+    for (const char* texels : {"FINISHED_TEXELS 1", "FINISHED_TEXELS 3"})
+      add("show.frag", joined({bits, {texels}}));
     add("visibility.vert", bits);
     for (const Definitions& backs : {Definitions{}, Definitions{"PASSES_BACKS"}}) {
       add("visibility.frag", joined({bits, backs}));

@@ -38,9 +38,10 @@ INSTANTIATE_TEST_SUITE_P(Backends, ProgramTest, kBackends, backend_name);
 TEST_P(ProgramTest, EveryShaderCompilesInEveryVariant) {
   for (const char* bits : {"ID_BITS 16", "ID_BITS 24", "ID_BITS 32"}) {
     EXPECT_NO_THROW(gl::Program(kShaders, "visibility.vert", "visibility.frag", {bits}));
-    for (const char* file :
-         {"accumulate.frag", "composite.frag", "gbuffer.frag", "inspect.frag", "show.frag"})
+    for (const char* file : {"accumulate.frag", "composite.frag", "gbuffer.frag", "inspect.frag"})
       EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", file, {bits}));
+    for (const char* texels : {"FINISHED_TEXELS 1", "FINISHED_TEXELS 3"})
+      EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", "show.frag", {bits, texels}));
     for (std::vector<std::string> definitions : std::initializer_list<std::vector<std::string>>{
              {"HAS_MASK", "MASK_BITS 1", "MASK_SCALE 1"},
              {"HAS_MASK", "MASK_BITS 8", "MASK_SCALE 1", "HAS_REFLECTION", "REFLECTION_SCALE 1",
