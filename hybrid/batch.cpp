@@ -70,6 +70,8 @@ RayCounts draw_frames(Engine& engine, FrameRequest request, std::span<const Came
 // The settings for these cameras, of `pictures` pictures in all.
 Expected<Settings> resolve_for(Engine& engine, const Scene& scene, std::span<const Camera> cameras,
                                std::size_t pictures, glm::ivec2 size, const Settings& settings) {
+  for (const Camera& camera : cameras)
+    if (const Expected<void> checked = check_camera(camera); !checked) return Unexpected(checked.error());
   Settings wanted = settings;
   if (!std::ranges::all_of(cameras, &Camera::is_rasterisable)) draw_on_cpu(wanted);
   wanted.exchange.fill(settings.uses_gpu() && pictures > 1 ? Exchange::pipelined : Exchange::sync);

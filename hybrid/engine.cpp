@@ -228,6 +228,8 @@ std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings
 
 Expected<FrameResult> Engine::render(const Scene& scene, const View& view, const Settings& settings,
                                      Progress* progress) {
+  if (const Expected<void> checked = check_camera(view.camera); !checked && !view.rays)
+    return Unexpected(checked.error());
   Settings wanted = settings;
   if (!view.is_rasterisable()) draw_on_cpu(wanted);
   const Expected<Settings> resolved = resolve(scene, view.box().size(), wanted);

@@ -56,10 +56,11 @@ ShadingParams fetch_material(int material, out bool transmits) {
   vec4 specular_alpha = texelFetch(materials, first + 2);
   m.specular = specular_alpha.rgb;
   m.ggx_alpha = specular_alpha.a;
-  m.emission = texelFetch(materials, first + 3).rgb;
+  vec4 emission_transmission = texelFetch(materials, first + 3);
+  m.emission = emission_transmission.rgb;
   m.occlusion = 1.0;
   vec4 layer = texelFetch(materials, first + 4);
-  m.layer = layer.xy;
+  m.layer = vec3(layer.xy, emission_transmission.a);
   m.grazing = layer.z;
   int bits = int(layer.w);
   transmits = (bits & 1) != 0;

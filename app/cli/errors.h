@@ -12,8 +12,8 @@ enum ExitCode {
   kFailed = 1,         // while running
   kUsage = 2,          // wrong command line
   kNoContext = 3,      // no OpenGL context
-  kBadScene = 4,       // scene cannot be read
-  kAboveLimit = 5,     // compare
+  kBadScene = 4,       // a scene or picture cannot be read
+  kAboveLimit = 5,     // compare; also a picture without counterpart
   kInterrupted = 130,  // SIGINT, SIGTERM, SIGHUP
 };
 

@@ -11,8 +11,7 @@ namespace {
 
 // The number for which `pattern` gives `name`.
 std::optional<int> number_in(const std::string& pattern, const std::string& name) {
-  const std::size_t first = pattern.find('#'),
-                    end = std::min(pattern.find_first_not_of('#', first), pattern.size());
+  const auto [first, end] = number_place(pattern);
   const std::size_t fixed = first + (pattern.size() - end);
   if (name.size() <= fixed) return std::nullopt;
   const std::optional<int> number = parse_int(name.substr(first, name.size() - fixed));
@@ -21,10 +20,22 @@ std::optional<int> number_in(const std::string& pattern, const std::string& name
 
 }  // namespace
 
+NumberPlace number_place(const std::string& pattern) {
+  const std::size_t name = pattern.rfind('/') + 1;  // 0 where there is no folder
+  std::size_t end = pattern.size();
+  while (end > 0) {
+    std::size_t first = end;
+    while (first > 0 && pattern[first - 1] == '#') --first;
+    if (end - first > 1 || (first < end && first >= name)) return {first, end};
+    end = first < end ? first : end - 1;
+  }
+  return {};
+}
+
 std::filesystem::path numbered(const std::string& pattern, int number) {
-  const std::size_t first = pattern.find('#');
-  if (first == std::string::npos) return pattern;
-  const std::size_t end = std::min(pattern.find_first_not_of('#', first), pattern.size());
+  const NumberPlace place = number_place(pattern);
+  if (place.empty()) return pattern;
+  const auto [first, end] = place;
   std::string digits = std::to_string(number);
   if (digits.size() < end - first) digits.insert(0, end - first - digits.size(), '0');
   return pattern.substr(0, first) + digits + pattern.substr(end);
@@ -32,13 +43,12 @@ std::filesystem::path numbered(const std::string& pattern, int number) {
 
 std::vector<int> numbers_in_use(const std::string& pattern, const FrameRange& range,
                                 const std::vector<std::filesystem::path>& others) {
-  if (pattern.find('#') == std::string::npos) return {range.first};
-  std::filesystem::path folder, name;  // `name` is the part with the number
-  for (const std::filesystem::path& part : std::filesystem::path(pattern)) {
-    folder /= name;
-    name = part;
-    if (part.string().find('#') != std::string::npos) break;
-  }
+  const NumberPlace place = number_place(pattern);
+  if (place.empty()) return {range.first};
+  // The part of the path with the number, and the folder that it is in.
+  const std::filesystem::path until =
+      pattern.substr(0, std::min(pattern.find('/', place.end), pattern.size()));
+  const std::filesystem::path folder = until.parent_path(), name = until.filename();
   std::vector<int> numbers;
   const auto add_number_of = [&](const std::filesystem::path& file) {
     const std::optional<int> number = number_in(name.string(), file.filename().string());

@@ -9,7 +9,16 @@
 
 namespace pinocchio::app {
 
-// `pattern` with its run of # replaced by the number, padded with zeros.
+// Where the number is in a pattern: the last run of # in the file's name, else the last of two or more in a
+// folder's, so that a folder may be called C#. Empty: there is none.
+struct NumberPlace {
+  std::size_t first = 0, end = 0;
+
+  [[nodiscard]] bool empty() const { return first == end; }
+};
+[[nodiscard]] NumberPlace number_place(const std::string& pattern);
+
+// `pattern` with the number in its place, padded with zeros.
 [[nodiscard]] std::filesystem::path numbered(const std::string& pattern, int number);
 
 // The frames of the range whose file exists or may be named like one of `others`, however long the range is.

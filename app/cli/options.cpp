@@ -115,8 +115,9 @@ void add_light_options(CLI::App& verb, DrawOptions& o) {
       ->expected(1)
       ->take_all();
   verb.add_option("--environment", o.environment,
-                  "light and background around the scene: EXR or Radiance (.hdr), latitude and longitude")
-      ->type_name("FILE");
+                  "light and background around the scene: EXR or Radiance (.hdr), latitude and longitude; or "
+                  "studio, the sky of scenes without light")
+      ->type_name("FILE|studio");
 }
 
 }  // namespace
@@ -207,19 +208,20 @@ void add_size_option(CLI::App& verb, DrawOptions& o, const std::string& help) {
 void add_trust_options(CLI::App& verb, DrawOptions& o) {
   begin_group(verb, kOtherGroup);
   verb.add_option_function<std::uint64_t>(
-          "--load-limit", [&o](std::uint64_t mib) { o.load_limit = mib << 20; },
+          "--load-limit", [&o](std::uint64_t mib) { o.load.limit_bytes = mib << 20; },
           "most memory for what the scene's files unpack to: pictures, compressed meshes, copies (4096)")
       ->type_name("MIB")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 30));
-  verb.add_flag("--confine", o.confine,
+  verb.add_flag("--confine", o.load.confine,
                 "open only files in the scene's folder and below, wherever names and links lead; for scenes "
                 "from unknown sources");
   verb.add_flag("--strict", o.strict, "fail where a part of the scene's files would be ignored");
-  add_choice(verb, "--up-axis", "the axis of the scene's file that points up (y)", kUpAxisNames, o.up_axis);
-  verb.add_option("--animation", o.animation,
+  add_choice(verb, "--up-axis", "the axis of the scene's file that points up (y)", kUpAxisNames,
+             o.load.up_axis);
+  verb.add_option("--animation", o.load.animation,
                   "the file's animation that plays, by its name or its number from 0 (all, together)");
   verb.add_option(
-          "--variant", o.variant,
+          "--variant", o.load.variant,
           "the variant of the file's materials, by its name, which 'info' lists (the file's usual one)")
       ->type_name("NAME");
   const auto add_diameter = [&](const char* name, const char* help, float& to) {
@@ -229,17 +231,17 @@ void add_trust_options(CLI::App& verb, DrawOptions& o) {
   };
   add_diameter("--point-size",
                "draw the file's points as balls of this diameter, scene units (they are left out)",
-               o.point_size);
+               o.load.point_size);
   add_diameter("--line-width",
                "draw the file's lines as tubes of this diameter, scene units (they are left out)",
-               o.line_width);
+               o.load.line_width);
 }
 
 void add_shading_option(CLI::App& verb, DrawOptions& o) {
   begin_group(verb, kMethodGroup);
   verb.add_option_function<std::string>(
           "--shading",
-          [&o](const std::string& name) { o.shading = *parse_name<Shading>(kShadingNames, name); },
+          [&o](const std::string& name) { o.load.shading = *parse_name<Shading>(kShadingNames, name); },
           "reflection model: auto, that of the file (glTF's for metallic-roughness, else Phong's); phong, "
           "Phong's for all (auto)")
       ->type_name("MODEL")

@@ -39,14 +39,8 @@ struct DrawOptions {
   bool precise = false;  // draw the reference
   std::string progress = "auto";
   bool quiet = false;
-  std::uint64_t load_limit = kUsualLoadLimit;  // bytes
-  bool confine = false;                        // open only files below the scene's folder
-  Shading shading = Shading::from_file;
-  std::string animation;  // name or number of the one that plays. Empty: all
-  UpAxis up_axis = UpAxis::y;
-  float point_size = 0.0f, line_width = 0.0f;  // scene units. 0: points and lines are left out
-  std::string variant;                         // of the file's materials. Empty: those that it shows first
-  bool strict = false;                         // fail where a part of the scene would be ignored
+  LoadOptions load;     // how the scene's files are read
+  bool strict = false;  // fail where a part of the scene would be ignored
 
   // The mode of a Progress.
   [[nodiscard]] std::string progress_mode() const { return quiet ? "off" : progress; }

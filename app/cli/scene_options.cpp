@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/cli/check_camera.h"
 #include "app/cli/console.h"
 #include "app/cli/errors.h"
 #include "app/cli/options.h"
@@ -15,17 +14,9 @@ namespace pinocchio::app {
 
 Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Progress* progress) {
   if (!progress) progress = &run_progress();
-  const LoadOptions how{.limit_bytes = options.load_limit,
-                        .confine = options.confine,
-                        .shading = options.shading,
-                        .animation = options.animation,
-                        .up_axis = options.up_axis,
-                        .point_size = options.point_size,
-                        .line_width = options.line_width,
-                        .variant = options.variant};
-  Expected<Scene> scene = load_scene(options.scene, how, &warnings, progress);
+  Expected<Scene> scene = load_scene(options.scene, options.load, &warnings, progress);
   if (scene && !options.environment.empty()) {
-    auto environment = load_environment(options.environment, progress, options.load_limit, &warnings);
+    auto environment = load_environment(options.environment, progress, options.load.limit_bytes, &warnings);
     if (environment)
       scene->environment = std::move(*environment);
     else
@@ -112,7 +103,8 @@ Camera camera_for(const DrawOptions& options, const Scene& scene) {
   if (options.height) camera.height = *options.height;
   if (options.lens_radius) camera.lens_radius = *options.lens_radius;
   if (options.focus) camera.focus_distance = *options.focus;
-  check_camera(camera, "the camera");
+  if (const Expected<void> checked = check_camera(camera); !checked)
+    throw Exit(kUsage, checked.error().message());
   return camera;
 }
 

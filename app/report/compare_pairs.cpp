@@ -5,6 +5,7 @@
 #include <map>
 
 #include "app/cli/errors.h"
+#include "app/cli/numbered.h"
 #include "core/image/codecs/formats.h"
 
 namespace pinocchio::app {
@@ -12,7 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Files = std::map<std::string, fs::path>;  // by PicturePair::name
+struct Found {
+  std::string name;  // PicturePair's
+  fs::path file;
+};
+using Files = std::map<std::string, Found>;  // by what pairs them, in the order of the pairs
 
 bool is_picture(const fs::path& file) {
   const PictureFormat* const format = format_of(file);
@@ -20,26 +25,30 @@ bool is_picture(const fs::path& file) {
 }
 
 bool is_sequence(const std::string& name) {
-  return fs::path(name).filename().string().find('#') != std::string::npos;
+  return !number_place(fs::path(name).filename().string()).empty();
 }
 
 // Without files that are being written, whose names begin with a dot.
 Files pictures_in(const fs::path& folder) {
   Files files;
+  const auto add = [&](const std::string& name, const fs::path& file) {
+    files.emplace(name, Found{name, file});
+  };
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error))
     if (is_picture(entry->path()) && entry->path().filename().string().front() != '.' &&
         entry->is_regular_file(error))
-      files.emplace(entry->path().lexically_relative(folder).generic_string(), entry->path());
+      add(entry->path().lexically_relative(folder).generic_string(), entry->path());
   return files;
 }
 
-// By number. A number may have more digits than the pattern has #, as in render's -o.
+// By number, with zeros before it. It may have more digits than the pattern has #, as in render's -o.
 Files frames_of(const std::string& pattern) {
+  constexpr std::size_t kMostDigits = 20;
   const fs::path path(pattern), folder = path.has_parent_path() ? path.parent_path() : ".";
   const std::string name = path.filename().string();
-  const std::size_t first = name.find('#'), end = std::min(name.find_first_not_of('#', first), name.size());
+  const auto [first, end] = number_place(name);
   const std::string before = name.substr(0, first), after = name.substr(end);
   Files files;
   std::error_code error;
@@ -48,21 +57,23 @@ Files frames_of(const std::string& pattern) {
     if (found.size() < before.size() + after.size() + (end - first)) continue;
     if (!found.starts_with(before) || !found.ends_with(after)) continue;
     const std::string digits = found.substr(before.size(), found.size() - before.size() - after.size());
-    if (std::ranges::all_of(digits, [](unsigned char c) { return std::isdigit(c) != 0; }))
-      files.emplace(digits, entry->path());
+    if (!std::ranges::all_of(digits, [](unsigned char c) { return std::isdigit(c) != 0; })) continue;
+    const std::string key = std::string(kMostDigits - std::min(digits.size(), kMostDigits), '0') + digits;
+    files.emplace(key, Found{digits, entry->path()});
   }
   return files;
 }
 
 std::vector<PicturePair> pairs_of(const Files& a, const Files& b) {
   std::map<std::string, PicturePair> pairs;
-  for (const auto& [name, file] : a) pairs[name] = {name, file, {}};
-  for (const auto& [name, file] : b) {
-    pairs[name].name = name;
-    pairs[name].b = file;
+  for (const auto& [key, found] : a) pairs[key] = {found.name, found.file, {}};
+  for (const auto& [key, found] : b) {
+    PicturePair& pair = pairs[key];
+    if (pair.name.empty()) pair.name = found.name;
+    pair.b = found.file;
   }
   std::vector<PicturePair> list;
-  for (auto& [name, pair] : pairs) list.push_back(std::move(pair));
+  for (auto& [key, pair] : pairs) list.push_back(std::move(pair));
   return list;
 }
 

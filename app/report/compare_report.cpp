@@ -1,6 +1,7 @@
 #include "app/report/compare_report.h"
 
 #include <algorithm>
+#include <boost/locale/encoding_utf.hpp>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -61,7 +62,7 @@ std::string xml_text(const std::string& text) {
   constexpr std::array<std::pair<char, const char*>, 4> kEscapes{
       {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}}};
   std::string escaped;
-  for (const char c : text) {
+  for (const char c : boost::locale::conv::utf_to_utf<char>(text)) {  // without bytes that are not UTF-8
     const auto* const found = std::ranges::find(kEscapes, c, &std::pair<char, const char*>::first);
     if (found != kEscapes.end())
       escaped += found->second;

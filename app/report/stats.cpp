@@ -6,13 +6,14 @@
 
 #include "core/base/system_info.h"
 #include "hybrid/settings/json.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::app {
 namespace {
 
 // The mean of a count over the frames, as a whole number where it is one.
 template <class Count>
-nlohmann::json per_frame(const std::vector<FrameRecord>& records, Count count) {
+nlohmann::json per_frame(std::span<const FrameRecord> records, Count count) {
   std::uint64_t sum = 0;
   for (const FrameRecord& record : records) sum += count(record);
   if (records.empty()) return 0;
@@ -21,13 +22,13 @@ nlohmann::json per_frame(const std::vector<FrameRecord>& records, Count count) {
 }
 
 template <class Milliseconds>
-nlohmann::json spread(const std::vector<FrameRecord>& records, Milliseconds ms) {
+nlohmann::json spread(std::span<const FrameRecord> records, Milliseconds ms) {
   std::vector<double> values;
   for (const FrameRecord& record : records) values.push_back(ms(record));
   return {{"ms", percentiles(std::move(values))}};
 }
 
-nlohmann::json bytes_json(const std::vector<FrameRecord>& records) {
+nlohmann::json bytes_json(std::span<const FrameRecord> records) {
   nlohmann::json buffers;
   for (std::size_t i = 0; i < kChannelNames.size(); ++i)
     buffers[std::string(kChannelNames[i])] =
@@ -37,7 +38,7 @@ nlohmann::json bytes_json(const std::vector<FrameRecord>& records) {
           {"buffers", buffers}};
 }
 
-nlohmann::json rays_json(const std::vector<FrameRecord>& records) {
+nlohmann::json rays_json(std::span<const FrameRecord> records) {
   nlohmann::json json;
   for (const RayKind& kind : kRayKinds)
     json[std::string(kind.name)] =
@@ -45,10 +46,13 @@ nlohmann::json rays_json(const std::vector<FrameRecord>& records) {
   return json;
 }
 
-double frames_per_second(const std::vector<FrameRecord>& records) {
+// From the end of the first frame on: before it, pipelined frames have not begun to overlap.
+double frames_per_second(std::span<const FrameRecord> records) {
   if (records.empty()) return 0.0;
-  const double seconds = records.back().frame.end_s - records.front().frame.begin_s;
-  return seconds > 0.0 ? records.size() / seconds : 0.0;
+  const FrameRecord &first = records.front(), &last = records.back();
+  const bool alone = records.size() == 1;
+  const double seconds = last.frame.end_s - (alone ? first.frame.begin_s : first.frame.end_s);
+  return seconds > 0.0 ? (alone ? 1.0 : as_double(records.size() - 1)) / seconds : 0.0;
 }
 
 }  // namespace
@@ -79,8 +83,11 @@ nlohmann::json system_json(const gl::ContextInfo* context, Isa used) {
   return json;
 }
 
-nlohmann::json figures(const std::vector<FrameRecord>& records, const Settings& settings, const Scene& scene,
-                       const gl::ContextInfo* context) {
+nlohmann::json figures(std::span<const FrameRecord> records, const Settings& settings, const Scene& scene,
+                       glm::ivec2 size, const gl::ContextInfo* context) {
+  // Reprojected, a frame is traced while the next one is drawn: the last one is not.
+  const bool last_is_traced = settings.exchange != Exchange::reproject || records.size() < 2;
+  const std::span<const FrameRecord> traced = records.first(records.size() - (last_is_traced ? 0 : 1));
   nlohmann::json stages;
   for (std::size_t i = 0; i < kStageNames.size(); ++i)
     stages[std::string(kStageNames[i])] =
@@ -90,11 +97,12 @@ nlohmann::json figures(const std::vector<FrameRecord>& records, const Settings& 
   nlohmann::json latency = spread(records, [](const FrameRecord& r) { return r.frame.ms(); });
   latency["frames"] = latency_frames;
   return {{"frames", records.size()},
-          {"bytes", bytes_json(records)},
+          {"size", {size.x, size.y}},
+          {"bytes", bytes_json(traced)},
           {"latency", latency},
           {"frame", spread(records, [](const FrameRecord& r) { return r.frame.ms(); })},
           {"stages", stages},
-          {"rays", rays_json(records)},
+          {"rays", rays_json(traced)},
           {"fps", frames_per_second(records)},
           {"memory", {{"peak_bytes", peak_memory_bytes()}}},
           {"plan", to_json(settings)},

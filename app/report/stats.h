@@ -1,6 +1,8 @@
 #pragma once
 
+#include <glm/glm.hpp>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <vector>
 
 #include "gl/context/context.h"
@@ -16,8 +18,9 @@ namespace pinocchio::app {
 // CPU, cores, SIMD level (`used`), OpenGL and versions. context: null where none was opened.
 [[nodiscard]] nlohmann::json system_json(const gl::ContextInfo* context, Isa used = default_isa());
 
-// The figures of a run (--stats-json): times in milliseconds, sizes in bytes, per frame.
-[[nodiscard]] nlohmann::json figures(const std::vector<FrameRecord>& records, const Settings& settings,
-                                     const Scene& scene, const gl::ContextInfo* context);
+// The figures of a run (--stats-json): times in milliseconds, sizes in bytes, per frame. size: the pictures',
+// in pixels.
+[[nodiscard]] nlohmann::json figures(std::span<const FrameRecord> records, const Settings& settings,
+                                     const Scene& scene, glm::ivec2 size, const gl::ContextInfo* context);
 
 }  // namespace pinocchio::app

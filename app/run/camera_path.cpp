@@ -7,7 +7,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/check_camera.h"
 #include "app/cli/errors.h"
 #include "pinocchio/conversion.h"
 #include "pinocchio/load.h"
@@ -79,7 +78,8 @@ class PathReader {
       if (!fov->is_number()) fail(where + "fov is not a number");
       camera.fov_deg = fov->get<float>();
     }
-    check_camera(camera, file_ + ": " + where.substr(0, where.find(':')));
+    if (const Expected<void> checked = check_camera(camera); !checked)
+      throw Exit(kUsage, file_ + ": " + where + checked.error().message());
     return result;
   }
 

@@ -110,18 +110,18 @@ void write_json(const std::filesystem::path& file, const nlohmann::json& json) {
   write_text(file, json_text(json));
 }
 
-void make_folder(const std::filesystem::path& folder) {
+void make_folder(const std::filesystem::path& folder, const char* option) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
     throw Exit(kFailed, folder.string() + ": the folder cannot be made (" + error.message() +
-                            "); give another one with -o DIR");
+                            "); give another one with " + option);
 }
 
 void check_outputs(const OutputOptions& options, const FrameRange& range) {
   for (const std::string& pattern : {options.exr, options.preview}) {
     if (pattern.empty()) continue;
-    if (range.count() > 1 && pattern.find('#') == std::string::npos)
+    if (range.count() > 1 && number_place(pattern).empty())
       throw Exit(kUsage, pattern + ": one file cannot hold " + std::to_string(range.count()) +
                              " frames; put #### in place of the frame's number");
     check_writable(numbered(pattern, range.first));
@@ -153,13 +153,13 @@ ExrOptions exr_options(const OutputOptions& options, const FrameHeader& frame) {
 
 std::string inputs_json(const Scene& scene, const DrawOptions& draw, const OutputOptions& output) {
   nlohmann::json inputs{{"precise", draw.precise},
-                        {"shading", name_of(kShadingNames, draw.shading)},
+                        {"shading", name_of(kShadingNames, draw.load.shading)},
                         {"files", nlohmann::json::array()}};
-  if (!draw.animation.empty()) inputs["animation"] = draw.animation;
-  if (draw.up_axis != UpAxis::y) inputs["upAxis"] = name_of(kUpAxisNames, draw.up_axis);
-  if (!draw.variant.empty()) inputs["variant"] = draw.variant;
-  if (draw.point_size > 0.0f) inputs["pointSize"] = draw.point_size;
-  if (draw.line_width > 0.0f) inputs["lineWidth"] = draw.line_width;
+  if (!draw.load.animation.empty()) inputs["animation"] = draw.load.animation;
+  if (draw.load.up_axis != UpAxis::y) inputs["upAxis"] = name_of(kUpAxisNames, draw.load.up_axis);
+  if (!draw.load.variant.empty()) inputs["variant"] = draw.load.variant;
+  if (draw.load.point_size > 0.0f) inputs["pointSize"] = draw.load.point_size;
+  if (draw.load.line_width > 0.0f) inputs["lineWidth"] = draw.load.line_width;
   if (keeps_motion(output)) inputs["motionTo"] = output.motion_to_former ? "former" : "next";
   const auto add = [&](const std::string& file) {
     const std::optional<std::string> content = fingerprint(file);

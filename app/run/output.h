@@ -76,7 +76,7 @@ void write_json(const std::filesystem::path& file, const nlohmann::json& json);
 [[nodiscard]] std::string ending_error(const std::string& file, const std::string& extension);
 
 // Makes the folder and those above it that are missing. Ends the verb with kFailed where it cannot.
-void make_folder(const std::filesystem::path& folder);
+void make_folder(const std::filesystem::path& folder, const char* option);
 
 // Ends the verb before anything is drawn: with kUsage where several frames would be written to one file, with
 // kFailed where a file cannot be written.

@@ -75,7 +75,7 @@ class ChartRun {
     // An animated scene is charted at one time.
     scene = value_or_exit(at_time(scene, *options_.animation.time_s), kBadScene);
     scene.animation = nullptr;
-    make_folder(folder_ / "pictures");
+    make_folder(folder_ / "pictures", "-o DIR");
     check_apart(
         input_files(draw, options_.animation, scene),
         {{"-o", folder_ / "results.json"}, {"-o", folder_ / "results.csv"}, {"-o", folder_ / "index.html"}});
@@ -210,7 +210,7 @@ class ChartRun {
 int run_stability(const ChartOptions& options) {
   const std::filesystem::path folder = options.folder;
   const DrawOptions& draw = options.draw;
-  make_folder(folder);
+  make_folder(folder, "-o DIR");
   check_writable(folder / "stability.json");
   stability::KeptCells kept = value_or_exit(
       stability::KeptCells::open(folder, stability::run_json(options.quick), options.restart), kUsage);

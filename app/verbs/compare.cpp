@@ -77,7 +77,7 @@ PairResult compare_pair(const PicturePair& pair, const Options& options, const s
   if (!heatmap.empty()) {
     if (const std::filesystem::path folder = std::filesystem::path(heatmap).parent_path();
         !folder.empty() && options.heatmap != heatmap)
-      make_folder(folder);
+      make_folder(folder, "--heatmap");
     write_png(heatmap, magma(compared->flip));
     result.heatmap = heatmap;
   }
@@ -121,7 +121,7 @@ void check_files(const Options& options, const std::vector<PicturePair>& pairs) 
     if (several && is_within(options.heatmap, compared))
       throw Exit(kUsage, "--heatmap " + options.heatmap + ": within " + compared +
                              ", whose pictures are compared; choose another folder");
-  if (several && !options.heatmap.empty()) make_folder(options.heatmap);
+  if (several && !options.heatmap.empty()) make_folder(options.heatmap, "--heatmap");
   if (!several && !options.heatmap.empty()) {
     if (const std::string error = ending_error(options.heatmap, ".png"); !error.empty())
       throw Exit(kUsage, "--heatmap: " + error);

@@ -26,7 +26,10 @@ int generate(const GenerateOptions& options) {
   ProceduralOptions procedural = options.procedural;
   procedural.progress = &run_progress();
   const Scene scene = value_or_exit(make_procedural(options.name, procedural), kUsage);
-  save_scene(scene, file, &run_progress());
+  Warnings warnings;
+  save_scene(scene, file, &run_progress(), &warnings);
+  for (const Warning& warning : warnings)
+    std::fprintf(stderr, "pinocchio: warning: %s\n", warning.message().c_str());
   std::printf("%s: %zu triangles\n", file.c_str(), scene.mesh->triangles.size());
   return kDone;
 }

@@ -117,7 +117,7 @@ nlohmann::json overlap_json(const Measured& run) {
 }
 
 nlohmann::json run_json(const Measured& run, Drawing& drawing, const MeasureOptions& options) {
-  nlohmann::json json = figures(run.records, run.settings, drawing.scene(),
+  nlohmann::json json = figures(run.records, run.settings, drawing.scene(), part_of(options.draw).size(),
                                 run.settings.uses_gpu() ? drawing.gl_info() : nullptr);
   json["name"] = run.name;
   if (const std::size_t counted = run.records.size(); counted < kFewestForPercentiles)
@@ -212,7 +212,6 @@ void print_comparison(const std::vector<Measured>& runs, const nlohmann::json& j
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const nlohmann::json& j = json[i];
     const double fps = j["fps"];
-    // Not the last frame: the mask and reflection of a reprojected frame arrive after it was shown.
     const FrameRecord& usual = runs[i].records[runs[i].records.size() / 2];
     std::printf("%-22s %9.1f %9.2f %8d %8.2f %4d %12zu %12zu\n", runs[i].name.c_str(), fps,
                 1e3 / std::max(fps, 1e-9), j["latency"]["frames"].get<int>(),
@@ -266,6 +265,7 @@ int measure(MeasureOptions& options) {
   Scene scene = load_scene_for(options.draw);
   if (options.animation.turntable == 0 && options.animation.path.empty())
     options.animation.turntable = kDefaultFrames;
+  options.draw.settings.reuse.fill(false);  // else the frames of a still camera would take no time
   const CameraFrames frames(options.animation, options.draw, scene);
   check_records(frames.size(), options.draw.settings, "measure");
   if (options.compare) require_rasterisable(frames[0].camera, "--compare");
@@ -309,7 +309,10 @@ Run add_measure(CLI::App& program) {
   add_studio_option(verb, options->draw, false);
   add_animation_options(verb, options->animation);
   verb.get_option("--frames")
-      ->description("frames to draw: N of them, or frames A to B")
+      ->description(
+          "frames to draw: N of them, or frames A to B, of a turn of 120 unless --turntable or --path is "
+          "given "
+          "(120)")
       ->type_name("N|A-B[xSTEP]");
   add_budget_options(verb, options->budget);
   verb.add_flag("--compare", options->compare,

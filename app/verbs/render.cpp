@@ -84,7 +84,7 @@ class RenderRun {
     const double begin_s = now_s();
     if (options_.output.raw) std::signal(SIGPIPE, SIG_IGN);  // its reader's end is an error of the run
     Scene scene = load_scene_for(options_.draw);
-    if (has_studio_light(scene)) options_.draw.settings.spp.fill(kStudioSamples);
+    if (has_studio_sky(scene)) options_.draw.settings.spp.fill(kStudioSamples);
     frames_.emplace(options_.animation, options_.draw, scene);
     check(scene);
     options_.output.inputs = inputs_json(scene, options_.draw, options_.output);
@@ -108,13 +108,14 @@ class RenderRun {
   // one exposure, also where several machines draw parts of the range.
   void expose(Drawing& drawing) {
     if (options_.output.preview.empty() || options_.exposure->count() > 0 || frames_->size() > 1 ||
-        !has_studio_light(drawing.scene()))
+        !has_studio_sky(drawing.scene()))
       return;
     options_.output.exposure_ev = studio_exposure(drawing, (*frames_)[0]);
   }
 
   [[nodiscard]] nlohmann::json stats(const Drawing& drawing) const {
-    nlohmann::json json = figures(records_, drawing.settings(), drawing.scene(), drawing.gl_info());
+    nlohmann::json json = figures(records_, drawing.settings(), drawing.scene(),
+                                  part_of(options_.draw).size(), drawing.gl_info());
     if (drawing.settings().exchange == Exchange::reproject)
       json["reproject"]["holes"] = 1.0 * holes_ / std::max<std::size_t>(delivered_, 1);
     if (budget_) json["budget"] = budget_->json();

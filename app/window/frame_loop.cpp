@@ -61,13 +61,17 @@ void FrameLoop::draw() {
   } catch (const std::exception& error) {
     if (ends_the_window(error)) throw;
     model_.messages.error("drawing", one_line(error.what()));
-    newest_ = next_request();  // not tried again until something changes
+    newest_ = tried_;  // not tried again until something changes
     model_.idle = true;
   }
 }
 
 void FrameLoop::draw_next() {
   const FrameRequest request = next_request();
+  if (request.settings.traces() && !request.tracer) {  // cameras that need rays, before there is a tree
+    model_.idle = true;
+    return;
+  }
   model_.picture_size = request.view.size;
   if (split_.follow(request)) screen_.request_redraw(1);
   if (model_.idle && split_.wants_picture()) again_ = true;
@@ -78,7 +82,9 @@ void FrameLoop::draw_next() {
   model_.idle = false;
   // Input is handled between showing a frame and beginning the next one.
   (void)renderer_.advance();
-  if (screen_.shown() || !renderer_.try_submit(request)) return;
+  if (screen_.shown()) return;
+  tried_ = request;
+  if (!renderer_.try_submit(request)) return;
   again_ = false;
   if (!new_frame) return;
   model_.messages.clear("drawing");

@@ -57,6 +57,7 @@ class FrameLoop {
   Accumulator accumulator_;
   Wireframe wireframe_;
   std::optional<FrameRequest> newest_;  // the request drawn last
+  std::optional<FrameRequest> tried_;   // the last one that the renderer was given
   int sample_ = 0;                      // the still camera's next
   bool again_ = false;                  // newest_ is to be delivered again
   bool settled_ = false;                // newest_ was delivered again since it was drawn

@@ -9,6 +9,7 @@
 #include "core/base/clock.h"
 #include "core/files/atomic_file.h"
 #include "core/image/codecs/png.h"
+#include "gl/context/error.h"
 #include "hybrid/frame/samples.h"
 #include "pinocchio/conversion.h"
 #include "pinocchio/save.h"
@@ -30,12 +31,25 @@ std::string whole_path(const std::string& file) {
   return unknown ? file : path.string();
 }
 
+// The files that are written beside the scene's.
+std::vector<std::string> files_beside(const std::string& file, const MeshData& mesh) {
+  const std::filesystem::path path(file);
+  const std::string stem = (path.parent_path() / path.stem()).string();
+  if (path.extension() == ".gltf") return {stem + ".bin"};
+  if (path.extension() != ".obj") return {};
+  std::vector<std::string> files{stem + ".mtl"};
+  for (std::size_t i = 0; i < mesh.textures.size(); ++i)
+    files.push_back(stem + "-" + std::to_string(i) + ".png");
+  return files;
+}
+
 }  // namespace
 
-// The environment, where the scene's own file does not hold it.
+// The environment, where the scene's own file does not hold it. A file without light gets the studio's.
 std::string Recording::environment_file(const DrawOptions& draw) const {
   const std::shared_ptr<const Environment>& environment = model_.scene.environment;
-  if (!environment) return {};
+  if (!environment || has_studio_light(model_.scene)) return {};
+  if (has_studio_sky(model_.scene)) return "studio";
   return is_environment_file(environment->source()) ? environment->source() : draw.environment;
 }
 
@@ -70,6 +84,17 @@ void Recording::toggle_sequence(bool with_exr) {
 
 void Recording::add(const Frame& frame) {
   if (model_.recording.empty() || !screen_.has_picture()) return;
+  try {
+    write(frame);
+  } catch (const gl::Error&) {
+    throw;
+  } catch (const EnvironmentError& error) {  // a full disk
+    model_.recording.clear();
+    model_.messages.error("file", one_line(error.what()) + "; the recording has ended");
+  }
+}
+
+void Recording::write(const Frame& frame) {
   const std::string name = model_.recording + format("-%04d", ++recorded_);
   const bool with_alpha = frame.request().settings.background.value.is_transparent();
   if (!with_alpha) write_png(name + ".png", screen_.read_picture());
@@ -86,12 +111,25 @@ void Recording::add(const Frame& frame) {
 
 void Recording::save_camera() {
   const std::string file = file_name({"-camera.json"}) + "-camera.json";
-  write_text(file, camera_path_json(model_.camera.camera()));
-  model_.messages.news(whole_path(file) + " written, for --path");
+  const Camera camera = model_.camera.camera();
+  write_text(file, camera_path_json(camera));
+  const bool is_usual = camera.projection == Projection::perspective;
+  model_.messages.news(
+      whole_path(file) + " written, for --path" +
+      (is_usual ? "" : " with --projection " + std::string(name_of(kProjectionNames, camera.projection))));
 }
 
 void Recording::save_gltf() {
   save_scene_to(file_name({".gltf", ".bin"}) + ".gltf");
+}
+
+// Without the studio, which lights a file without light.
+void Recording::write_scene(Scene scene, const std::string& file) {
+  if (has_studio_light(scene)) scene.lights.clear();
+  if (has_studio_sky(scene)) scene.environment.reset();
+  Warnings warnings;
+  save_scene(scene, file, nullptr, &warnings);
+  for (const Warning& warning : warnings) model_.messages.warning(warning.message());
 }
 
 // With all its parts and animations. A scene opens with its first camera.
@@ -101,9 +139,7 @@ void Recording::save_scene_to(const std::string& file) {
   Camera camera = model_.camera.camera();
   camera.name = "window";
   scene.cameras.insert(scene.cameras.begin(), camera);
-  Warnings warnings;
-  save_scene(scene, file, nullptr, &warnings);
-  for (const Warning& warning : warnings) model_.messages.warning(warning.message());
+  write_scene(std::move(scene), file);
   model_.messages.news(whole_path(file) + " written");
   if (const std::string light = environment_file({}); !light.empty())
     model_.messages.hint("it holds no environment: give --environment " + light + " with it", 12.0);
@@ -114,9 +150,11 @@ std::string Recording::chosen_file(const std::string& extension) const {
   if (place.name.empty()) return file_name({extension}) + extension;
   std::string file = (std::filesystem::path(place.folder) / place.name).string();
   if (!file.ends_with(extension)) file += extension;
-  std::error_code unknown;
-  if (std::filesystem::exists(file, unknown) && !place.replaces)
-    throw EnvironmentError(file + " exists: choose another name, or tick 'replace files'");
+  std::vector<std::string> written = files_beside(file, *model_.scene.mesh);
+  written.insert(written.begin(), file);
+  for (const std::string& one : written)
+    if (std::error_code unknown; std::filesystem::exists(one, unknown) && !place.replaces)
+      throw EnvironmentError(one + " exists: choose another name, or tick 'replace files'");
   return file;
 }
 
@@ -151,17 +189,16 @@ std::string Recording::print_command(const Settings& settings, const DrawOptions
   const std::string name = file_name({".png", ".exr", ".gltf"});
   ExportedView view;
   view.scene = model_.scene.source;
+  view.load = draw.load;
   if (model_.scene_edited || model_.parts.hides()) {
     view.scene = name + ".gltf";
-    save_scene(model_.scene, view.scene);
+    view.load = {.limit_bytes = draw.load.limit_bytes,
+                 .confine = draw.load.confine,
+                 .shading = draw.load.shading};  // the rest is in the file
+    write_scene(model_.scene, view.scene);
     model_.messages.news("the scene as it is shown is in " + whole_path(view.scene));
   } else {
     view.extra_lights = extra_lights(model_.scene.lights, draw);
-    view.up_axis = draw.up_axis;
-    view.animation = draw.animation;
-    view.variant = draw.variant;
-    view.point_size = draw.point_size;
-    view.line_width = draw.line_width;
     if (model_.scene.animation) view.time_s = model_.playback.posed_s;
     if (const int clip = model_.playback.clip; clip >= 0) {
       const std::string& played = model_.playback.all->clips.at(as_size(clip)).name;
@@ -169,21 +206,19 @@ std::string Recording::print_command(const Settings& settings, const DrawOptions
         model_.messages.hint(
             "the animation has no name: the command plays all animations of the file together");
       else
-        view.animation = played;
+        view.load.animation = played;
     }
   }
   view.settings = settings;
   view.denoised = model_.drawn.denoise;
-  view.studio_light = has_studio_light(model_.scene);
+  view.studio_light = has_studio_sky(model_.scene);
   view.camera = model_.camera.camera();
+  if (!model_.scene.cameras.empty()) view.usual_camera = model_.scene.cameras.front();
   view.environment = environment_file(draw);
   view.size = model_.wanted_size();
   view.samples = model_.gathers() ? std::max(model_.samples, 1) : 1;
   view.exposure_ev = model_.applied.exposure_ev;
   view.tone_map = model_.applied.tone_map;
-  view.load_limit = draw.load_limit;
-  view.confine = draw.confine;
-  view.shading = draw.shading;
   const std::string command = render_command(view, name);
   std::printf("%s\n", command.c_str());
   std::fflush(stdout);

@@ -19,7 +19,8 @@ class Recording {
   void save_screenshot(const Settings& settings, bool with_overlay);
   // Begins a sequence, or ends it.
   void toggle_sequence(bool with_exr);
-  // Adds the frame that is shown to the sequence, without the overlay.
+  // Adds the frame that is shown to the sequence, without the overlay. The sequence ends, with a message,
+  // where it cannot be written.
   void add(const Frame& frame);
 
   void save_camera();
@@ -33,6 +34,8 @@ class Recording {
  private:
   [[nodiscard]] std::string chosen_file(const std::string& extension) const;
   void save_scene_to(const std::string& file);
+  void write_scene(Scene scene, const std::string& file);
+  void write(const Frame& frame);
   void save_picture(Action action, const Settings& settings, const std::string& file);
   [[nodiscard]] std::string environment_file(const DrawOptions& draw) const;
   [[nodiscard]] std::string file_name(const std::vector<std::string>& extensions) const;

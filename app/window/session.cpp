@@ -140,8 +140,8 @@ void Session::show_scene(SceneLoader::News& news) {
   playback_.cancel();
   budget_.forget();
   source_.accept(scene);
-  model_.up_axis = source_.options().up_axis;
-  model_.variant = source_.options().variant;
+  model_.up_axis = source_.options().load.up_axis;
+  model_.variant = source_.options().load.variant;
   const bool is_same_file = model_.scene.source == scene.source;
   const bool again = is_same_file && model_.up_axis == axis_before;
   const std::shared_ptr<const Environment> opened = is_same_file ? opened_environment() : nullptr;

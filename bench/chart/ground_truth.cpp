@@ -85,7 +85,7 @@ void forget_references(const std::filesystem::path& folder) {
 MeasuredError GroundTruth::measure(const Image<glm::vec4>& color, std::size_t frame, bool area) {
   const Image<glm::vec3>& truth = reference(frame, area);
   const Image<glm::vec3> rgb = rgb_of(color);
-  const auto finite = std::ranges::count_if(rgb.pixels(), is_finite);
+  const auto finite = std::ranges::count_if(rgb.pixels(), is_finite<3>);
   const std::size_t not_finite = rgb.pixels().size() - static_cast<std::size_t>(finite);
   if (not_finite > 0) return {{}, not_finite};
   return {picture_error(rgb, truth, kFlipPixelsPerDegree, workers_)};

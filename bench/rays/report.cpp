@@ -110,7 +110,7 @@ void print_report(const Report& report) {
       per_triangle(report, report.ours), per_triangle(report, report.embree),
       per_triangle(report, report.ours) / per_triangle(report, report.embree));
   if (report.wide.bytes > 0)
-    std::printf("for rays that part: a wide tree, %.3f s, %.1f bytes a triangle\n", report.wide.seconds,
+    std::printf("for incoherent rays: a wide tree, %.3f s, %.1f bytes a triangle\n", report.wide.seconds,
                 per_triangle(report, report.wide));
   std::printf("%-14s %8s %7s  %-11s %7s %9s %10s %9s %9s\n", "set", "rays", "threads", "tracer", "Mrays/s",
               "embree 1", "packets", "ours/best", "differ");

@@ -20,7 +20,7 @@ Expected<PictureDifference> compare_pictures(const Image<glm::vec3>& picture,
   if (!(pixels_per_degree >= kLeastPixelsPerDegree && pixels_per_degree <= kMostPixelsPerDegree))
     return refused("pixels_per_degree is " + std::to_string(pixels_per_degree), "it is from 1 to 1000");
   for (const Image<glm::vec3>* image : {&picture, &reference})
-    if (!std::ranges::all_of(image->pixels(), is_finite))
+    if (!std::ranges::all_of(image->pixels(), is_finite<3>))
       return refused(
           std::string(image == &picture ? "the picture" : "the reference") + " has NaN or infinity in it",
           "no error figure can be given");

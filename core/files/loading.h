@@ -32,9 +32,7 @@ struct Loading {
   Progress* progress;  // may be null
   MemoryLimit& limit;
   InputFiles& files;  // the files beside the scene's
-  Shading shading = Shading::from_file;
-  std::string animation{};  // LoadOptions'
-  std::string variant{};    // LoadOptions'
+  const LoadOptions& options;
   PointsAndLines strokes{};
 };
 

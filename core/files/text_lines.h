@@ -9,12 +9,15 @@ namespace pinocchio {
 
 inline constexpr char kJoint = '\v';  // marks where a backslash joined two lines
 
-// Joins lines that end with a backslash to the next line. The text's length stays.
+// Joins lines that end with a backslash to the next line, but for comments, which may end with a folder's
+// name. The text's length stays.
 inline void join_lines(std::span<char> text) {
   const std::string_view read(text.data(), text.size());
   for (std::size_t at = read.find('\\'); at != read.npos; at = read.find('\\', at + 1)) {
     const std::size_t end = at + 1 + (read.substr(at + 1).starts_with("\r\n") ? 1 : 0);
     if (end >= text.size() || (text[end] != '\n' && text[end] != '\r')) continue;
+    const std::size_t line = read.find_last_of("\r\n", at) + 1;  // 0 on the first one
+    if (read[std::min(read.find_first_not_of(" \t", line), at)] == '#') continue;
     text[at] = text[at + 1] = ' ';
     text[end] = kJoint;
   }
@@ -63,6 +66,12 @@ inline std::string_view trimmed(std::string_view line) {
   const std::size_t first = line.find_first_not_of(kBlanks);
   return first == std::string_view::npos ? std::string_view()
                                          : line.substr(first, line.find_last_not_of(kBlanks) + 1 - first);
+}
+
+// A name without the comment behind it. Names may hold a #, too: try the whole first.
+inline std::string_view without_comment(std::string_view name) {
+  const std::size_t comment = name.find(" #");
+  return comment == std::string_view::npos ? name : trimmed(name.substr(0, comment));
 }
 
 }  // namespace pinocchio

@@ -5,9 +5,9 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
-#include <string_view>
 
 #include "pinocchio/image.h"
+#include "pinocchio/tone_map.h"
 
 namespace pinocchio {
 
@@ -23,9 +23,6 @@ namespace pinocchio {
 // The same for texels in [0, 1]. Alpha stays linear.
 void linear_to_srgb8(std::span<const glm::vec4> linear, glm::u8vec4* to);
 
-// The curve that maps light of any strength to a screen's range.
-enum class ToneMap { clip, reinhard, aces, neutral };
-inline constexpr std::array<std::string_view, 4> kToneMapNames{"clip", "reinhard", "aces", "neutral"};
 [[nodiscard]] glm::vec3 tone_mapped(const glm::vec3& light, ToneMap curve);
 
 // Linear RGBA as a screen shows it, over black: `exposure_ev` stops brighter, tone-mapped, sRGB, 8 bits.

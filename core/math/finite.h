@@ -5,8 +5,11 @@
 
 namespace pinocchio {
 
-[[nodiscard]] inline bool is_finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+template <int N>
+[[nodiscard]] bool is_finite(const glm::vec<N, float>& v) {
+  bool finite = true;
+  for (int i = 0; i < N; ++i) finite &= std::isfinite(v[i]);
+  return finite;
 }
 
 }  // namespace pinocchio

@@ -144,7 +144,8 @@ glm::dvec3 reference_matt(const ReferenceSurface& s, const glm::dvec3& to_light)
   const double n_dot_v = cosine_of_view(s), away = 1.0 - n_dot_v;
   const auto mirrored = [&m](double fifth) { return m.layer.x + (m.layer.y - m.layer.x) * fifth; };
   const double mean_fifth = 0.0257 * away * away * away - 0.002 * away * away + 0.0044 * away;
-  const double all = std::numbers::pi * largest(m.diffuse) * (1.0 - mirrored(mean_fifth));
+  const double all =
+      std::numbers::pi * largest(m.diffuse) * (1.0 - mirrored(mean_fifth)) / std::max(1.0 - m.layer.z, 1e-6);
   const double left = 1.0 - albedo(largest(m.specular), m.grazing, n_dot_v, m.ggx_alpha);
   const double cosine = std::clamp(glm::dot(s.to_viewer, glm::normalize(s.to_viewer + to_light)), 0.0, 1.0);
   return std::min(left / std::max(all, 1e-6), 1.0) * (1.0 - mirrored(std::pow(1.0 - cosine, 5.0))) *

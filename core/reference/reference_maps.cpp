@@ -35,14 +35,14 @@ ReferenceMaterial as_it_stands(const Material& m) {
           m.brdf,
           m.ggx_alpha,
           m.grazing,
-          glm::dvec2(m.layer),
+          glm::dvec3(m.layer),
           m.gloss,
           layers_of(m.layers, {}, [](const TextureUse&, bool) { return glm::dvec4(1.0); })};
 }
 
 // A surface's textured values at a point.
 struct PointSurface {
-  glm::dvec3 base, emissive, specular;  // specular: factor times colour
+  glm::dvec3 base, emissive, specular_color;
   double strength, metallic, roughness, transmission;
   ReferenceLayers layers;
 };
@@ -58,14 +58,15 @@ glm::dvec3 or_none(const glm::dvec3& mirror) {
 
 // docs/conventions.md, "Metallic-roughness".
 ReferenceMaterial material_of(const GltfSurface& s, const PointSurface& at, bool phong) {
-  const auto& [base, emissive, specular, strength, metallic, roughness, transmission, layers] = at;
+  const auto& [base, emissive, specular_color, strength, metallic, roughness, transmission, layers] = at;
   ReferenceMaterial m{};
   m.brdf = true;
   m.shininess = m.ior = 1.0;
   m.emission = s.unlit ? base : emissive;
   if (s.unlit) return m;
   const double n = s.ior;
-  const glm::dvec3 dielectric = glm::min(std::pow((n - 1.0) / (n + 1.0), 2.0) * specular, glm::dvec3(1.0));
+  const glm::dvec3 dielectric =
+      strength * glm::min(std::pow((n - 1.0) / (n + 1.0), 2.0) * specular_color, glm::dvec3(1.0));
   const glm::dvec3 f0 = (1.0 - metallic) * dielectric + metallic * base;
   const double most = std::max({dielectric.x, dielectric.y, dielectric.z});
   m.ambient = (1.0 - transmission) * base;
@@ -78,9 +79,9 @@ ReferenceMaterial material_of(const GltfSurface& s, const PointSurface& at, bool
     m.ggx_alpha = squared_roughness(roughness, 0.0005);
     const double f90 = std::min(strength, 1.0);
     m.grazing = f90 + (1.0 - f90) * metallic;
-    m.layer = {most, f90};
+    m.layer = {most, f90, transmission};
   }
-  const bool glass = transmission > 0.0 && metallic < 1.0;
+  const bool glass = transmission * (1.0 - metallic) > 1.5 / 255.0;
   if (glass) {
     m.transmittance = (1.0 - metallic) * transmission * base;
     if (s.volume) m.ior = n;
@@ -172,8 +173,8 @@ ReferenceMaterial reference_material(const Mesh& mesh, const ReferenceHit& hit, 
     const double specular = s.specular * texel(maps->specular, false).a;
     m = material_of(s,
                     {scaled(s.base_color, base), scaled(s.emissive, emissive),
-                     specular * scaled(s.specular_color, glm::dvec3(texel(maps->specular_color, true))),
-                     specular, s.metallic * rough_metal.b, s.roughness * rough_metal.g,
+                     scaled(s.specular_color, glm::dvec3(texel(maps->specular_color, true))), specular,
+                     s.metallic * rough_metal.b, s.roughness * rough_metal.g,
                      s.transmission * texel(maps->transmission, false).r, layers_of(s.layers, *maps, texel)},
                     !plain.is_microfacet());
     m.coat_is_mapped = maps->coat_is_mapped;

@@ -30,7 +30,7 @@ struct ReferenceMaterial {
   bool brdf;               // the coefficients include a BRDF's 1 / pi; else the light includes it
   double ggx_alpha = 0.0;  // roughness squared; 0: Phong's model
   double grazing = 1.0;    // F90; `specular` is F0
-  glm::dvec2 layer{0.0};   // F0 and F90 of the layer above the matt one
+  glm::dvec3 layer{0.0};   // F0 and F90 of the layer above the matt one, and what goes through below it
   double gloss = 0.0;      // exponent of the mirrored rays' lobe; 0: sharp
   ReferenceLayers layers;
   bool coat_is_mapped = false;  // the normal map is the coat's too

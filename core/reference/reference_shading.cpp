@@ -26,6 +26,16 @@ double reference_fresnel(double cos_in, double eta) {
   return 0.5 * (square(parallel) + square(perpendicular));
 }
 
+ReferenceGlass reference_glass(const ReferenceMaterial& m, double cos_in, double eta) {
+  const double fresnel = reference_fresnel(cos_in, eta);
+  if (m.ggx_alpha <= 0.0) return {glm::dvec3(fresnel), fresnel};
+  // How far the angle is on the way from F0 to F90. Thin walls: Schlick's formula.
+  const double f0 = square((m.ior - 1.0) / (m.ior + 1.0));
+  const double rise = m.ior == 1.0 ? std::pow(1.0 - std::clamp(cos_in, 0.0, 1.0), 5.0)
+                                   : std::max(fresnel - f0, 0.0) / std::max(1.0 - f0, 1e-6);
+  return {(1.0 - rise) * m.specular + rise * m.grazing, (1.0 - rise) * m.layer.x + rise * m.layer.y};
+}
+
 namespace {
 
 // Chiang, Li and Burley 2019: the light falls to zero as the facet turns away.
@@ -106,6 +116,11 @@ glm::dvec3 reference_beside(const glm::dvec3& axis, double cosine, double turn) 
 
 namespace {
 
+// KHR_lights_punctual: light fades to nothing at its range.
+double window(const Light& light, double distance) {
+  return std::max(1.0 - std::pow(distance / light.range, 4.0), 0.0);
+}
+
 // Samples the solid angle of a sphere with constant radiance I / (pi r^2), or of a disc at infinity.
 std::vector<ReferenceLight> round_light(const Light& light, const ReferenceSurface& surface,
                                         const glm::dvec3& strength, Terminator terminator) {
@@ -125,7 +140,7 @@ std::vector<ReferenceLight> round_light(const Light& light, const ReferenceSurfa
   // Radiance times solid angle. A light without falloff is treated as if at distance 1.
   double solid = 2.0 * std::numbers::pi * (1.0 - least) / (std::numbers::pi * square(sine));
   if (light.falloff == Light::Falloff::inverse_square && !directional)
-    solid /= std::max(std::max(square(distance), square(r)), 1e-12);
+    solid *= window(light, distance) / std::max(std::max(square(distance), square(r)), 1e-12);
   reference_cells(kReferencePoints, surface.p_world, [&](const glm::dvec2& cell) {
     const glm::dvec3 to_light = reference_beside(axis, 1.0 - cell.x * (1.0 - least), cell.y);
     const double along = glm::dot(to_light, offset);
@@ -150,7 +165,8 @@ std::vector<ReferenceLight> rectangle_light(const Light& light, const ReferenceS
     if (distance == 0.0 || distance > light.range) return;
     const glm::dvec3 to_light = offset / distance;
     double share = kShare * std::max(-glm::dot(to_light, glm::dvec3(light.direction)), 0.0);
-    if (light.falloff == Light::Falloff::inverse_square) share /= std::max(square(distance), 1e-12);
+    if (light.falloff == Light::Falloff::inverse_square)
+      share *= window(light, distance) / std::max(square(distance), 1e-12);
     const double facing = -glm::dot(to_light, glm::dvec3(light.direction));
     const double area = glm::length(glm::cross(glm::dvec3(light.edge_u), glm::dvec3(light.edge_v)));
     add_point(surface, to_light, share * strength, &point,
@@ -175,7 +191,8 @@ std::vector<ReferenceLight> reference_lights(const Light& light, const Reference
   const double distance = glm::length(offset);
   if (distance == 0.0 || distance > light.range) return point;
   const glm::dvec3 to_light = offset / distance;
-  if (light.falloff == Light::Falloff::inverse_square) radiance /= std::max(square(distance), 1e-12);
+  if (light.falloff == Light::Falloff::inverse_square)
+    radiance *= window(light, distance) / std::max(square(distance), 1e-12);
   if (light.kind == Light::Kind::spot) radiance *= reference_cone_share(light, to_light);
   add_point(surface, to_light, radiance, &position, 0.0, terminator, point);
   return point;
@@ -205,7 +222,7 @@ std::optional<ReferenceMeeting> reference_meeting(const Light& light, const Refe
         std::abs(glm::dot(glm::cross(u, at), normal)) > 0.5 * area2)
       return {};
     const double density = square(t) / (towards * std::sqrt(area2));
-    const double share = towards / (falls ? std::max(square(t), 1e-12) : 1.0);
+    const double share = towards * (falls ? window(light, t) / std::max(square(t), 1e-12) : 1.0);
     return ReferenceMeeting{share * density * strength, density, up_to(t)};
   }
   const double distance2 = glm::dot(offset, offset), r = light.radius, along = glm::dot(direction, offset);
@@ -216,7 +233,8 @@ std::optional<ReferenceMeeting> reference_meeting(const Light& light, const Refe
   // Radiance I / (pi r^2); a light without falloff is treated as if at distance 1.
   const double own_square = inside ? 1.0 : square(r) / distance2;
   double radiance = 1.0 / (std::numbers::pi * own_square);
-  if (falls) radiance /= std::max(std::max(distance2, square(r)), 1e-12);
+  if (falls)
+    radiance *= window(light, std::sqrt(distance2)) / std::max(std::max(distance2, square(r)), 1e-12);
   if (light.kind == Light::Kind::spot) radiance *= reference_cone_share(light, direction);
   return ReferenceMeeting{radiance * strength, 1.0 / (2.0 * std::numbers::pi * (1.0 - least)),
                           up_to(inside ? along + std::sqrt(chord2) : along - std::sqrt(chord2))};
@@ -281,9 +299,10 @@ std::array<ReferenceBounce, 3> reference_bounces(const ReferenceSurface& s) {
     const double ior = m.ior, eta = s.leaving ? 1.0 / ior : ior;
     const glm::dvec3 through = refracted(s, eta);
     // If the two normals disagree, there may be no refracted ray although Fresnel's share is not zero.
-    const double share = through == glm::dvec3(0.0) ? 1.0 : reference_fresnel(cos_in, eta);
-    return {bounce(s, mirrored(s), glm::dvec3(own * share)),
-            bounce(s, through, own * (1.0 - share) * m.transmittance), straight};
+    const ReferenceGlass glass =
+        through == glm::dvec3(0.0) ? ReferenceGlass{glm::dvec3(1.0), 1.0} : reference_glass(m, cos_in, eta);
+    return {bounce(s, mirrored(s), own * glass.mirrored),
+            bounce(s, through, own * (1.0 - glass.kept) * m.transmittance), straight};
   }
   if (!m.reflects()) return {ReferenceBounce{}, ReferenceBounce{}, straight};
   // Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994.

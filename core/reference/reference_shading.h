@@ -32,6 +32,12 @@ struct ReferenceLight {
 // The share of unpolarised light that a smooth dielectric mirrors (Born and Wolf, Principles of
 // Optics, 1.5.2). eta: the index on the far side divided by the index on the near side.
 [[nodiscard]] double reference_fresnel(double cos_in, double eta);
+// What glass mirrors, by colour, and the share of light that its surface keeps from what is below.
+struct ReferenceGlass {
+  glm::dvec3 mirrored;
+  double kept;
+};
+[[nodiscard]] ReferenceGlass reference_glass(const ReferenceMaterial& m, double cos_in, double eta);
 
 // A unit vector at that angle to the axis, rotated by `turn` of a circle around it.
 [[nodiscard]] glm::dvec3 reference_beside(const glm::dvec3& axis, double cosine, double turn);

@@ -41,6 +41,7 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const ReferenceCamera& camera, int
   const ReferenceHit hit = of.sees() ? closest_hit(ray) : ReferenceHit{};
   Pixel pixel;
   pixel.triangle = hit.triangle;
+  if (depth <= 0) depth = -kStraightBeyond;  // nothing is followed
   if (!hit.valid()) {
     pixel.color = glm::vec4(behind(ray));
     return pixel;
@@ -102,7 +103,7 @@ double ReferenceTracer::left_behind(ReferenceRay ray, ReferenceHit hit, int dept
   for (; hit.valid(); --depth) {
     const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit);
     const ReferenceBounce straight = reference_bounces(surface)[2];
-    if (straight.weight == glm::dvec3(0.0) || depth <= 0) return 0.0;
+    if (straight.weight == glm::dvec3(0.0) || depth <= -kStraightBeyond) return 0.0;
     left *= 1.0 - surface.material.alpha;
     ray = straight.ray;
     ray.of_camera = true;
@@ -147,14 +148,14 @@ glm::dvec3 ReferenceTracer::from_sky(const ReferenceSurface& surface, const Mate
   return surface.material.alpha * sum;
 }
 
-// Ir(R) + It(T), with at most `depth` bounces.
+// Ir(R) + It(T), with at most `depth` bounces, and straight on until depth is -kStraightBeyond.
 // density: of the direction that the surface is met from.
 glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth, const Cone& cone,
                                     const Media& media, int lobe_side, double density) const {
   glm::dvec3 sum(0.0);
   const bool lobe = lobes_ && surface.material.ggx_alpha > 0.0;
   if (lobe) sum += along_lobe(surface, depth, cone, media, lobe_side, density);
-  if (depth <= 0) return sum;
+  if (depth <= -kStraightBeyond) return sum;
   const auto follow = [&](const ReferenceBounce& bounce, const Material* medium, int side,
                           bool straight = false, double of_direction = 0.0) {
     ReferenceRay ray = bounce.ray;
@@ -167,7 +168,7 @@ glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth, 
   const double straight_on = options_.glass_shadows == GlassShadows::tinted ? density : 0.0;
   const std::array<ReferenceBounce, 3> bounces = reference_bounces(surface);
   for (std::size_t i = 0; i < bounces.size(); ++i) {
-    if (bounces[i].weight == glm::dvec3(0.0) || (lobe && i < 2)) continue;
+    if (bounces[i].weight == glm::dvec3(0.0) || (i < 2 && (lobe || depth <= 0))) continue;
     if (i > 0 || surface.material.gloss == 0.0) {
       follow(bounces[i], i == 1 ? media.beyond : media.here, lobe_side, i == 2, i > 0 ? straight_on : 0.0);
     } else {
@@ -212,19 +213,19 @@ glm::dvec3 ReferenceTracer::along_lobe(const ReferenceSurface& s, int depth, con
   for (const ReferenceLobe& lobe : reference_lobe_samples(s, reference_base(s), lobe_side)) {
     const double cosine = glm::dot(s.to_viewer, lobe.facet), eta = s.leaving ? 1.0 / m.ior : m.ior;
     glm::dvec3 mirrored = reference_schlick(m, cosine), through(0.0);
+    double passed = 0.0;
     if (glass) {
       through = thin ? lobe.direction - 2.0 * glm::dot(s.n_shading, lobe.direction) * s.n_shading
                      : glm::refract(-s.to_viewer, lobe.facet, 1.0 / eta);
       if (glm::dot(through, s.n_geometric) >= 0.0) through = glm::dvec3(0.0);
-      if (through == glm::dvec3(0.0))
-        mirrored = glm::dvec3(1.0);
-      else if (!thin)
-        mirrored = glm::dvec3(reference_fresnel(cosine, eta));
+      const ReferenceGlass at = reference_glass(m, cosine, eta);
+      mirrored = through == glm::dvec3(0.0) ? glm::dvec3(1.0) : at.mirrored;
+      passed = 1.0 - at.kept;
     }
     sum += lobe.share * below * mirrored * found(lobe);
     if (through != glm::dvec3(0.0) && depth > 0)
       sum +=
-          lobe.share * (1.0 - std::max({mirrored.x, mirrored.y, mirrored.z})) * m.transmittance *
+          lobe.share * passed * m.transmittance *
           along(through, media.beyond, options_.glass_shadows == GlassShadows::tinted ? density_of_ray : 0.0);
   }
   return m.alpha * sum;
@@ -313,10 +314,7 @@ glm::dvec3 ReferenceTracer::passing_glass(const ReferenceSurface& s) const {
   const ReferenceMaterial& m = s.material;
   if (options_.glass_shadows == GlassShadows::opaque || !m.transmits()) return glm::dvec3(0.0);
   const double cosine = std::clamp(glm::dot(s.n_shading, s.to_viewer), 0.0, 1.0);
-  if (m.ior != 1.0) return (1.0 - reference_fresnel(cosine, m.ior)) * m.transmittance;
-  if (m.ggx_alpha == 0.0) return m.transmittance;
-  const glm::dvec3 mirrored = reference_schlick(m, cosine);
-  return (1.0 - std::max({mirrored.x, mirrored.y, mirrored.z})) * m.transmittance;
+  return (1.0 - reference_glass(m, cosine, m.ior).kept) * m.transmittance;
 }
 
 ReferenceTracer::Arrival ReferenceTracer::arriving(const ReferenceRay& ray, const Material* medium) const {

@@ -5,8 +5,34 @@
 
 #include "core/math/lens.h"
 #include "pinocchio/conversion.h"
+#include "pinocchio/load.h"
 
 namespace pinocchio {
+
+Expected<void> check_camera(const Camera& camera) {
+  const auto fail = [](const std::string& what, const std::string& remedy) {
+    return Unexpected(InputError{{}, 0, what, remedy});
+  };
+  const auto is_near = [](const glm::vec3& p) {
+    return glm::all(glm::lessThanEqual(glm::abs(p), glm::vec3(kFarthest)));  // not where one is NaN
+  };
+  if (!is_near(camera.eye))
+    return fail("the camera's eye is more than 1e9 from the origin", "move it nearer");
+  if (!is_near(camera.target))
+    return fail("the camera's target is more than 1e9 from the origin", "move it nearer");
+  if (camera.eye == camera.target)
+    return fail("the camera's eye and its target are the same point", "move one of them");
+  if (camera.up == glm::vec3(0.0f) || !is_near(camera.up))
+    return fail("the camera's up is not a direction", "give one such as 0,1,0");
+  const bool is_fisheye = camera.projection == Projection::fisheye;
+  if (!(camera.fov_deg > 0.0f && (is_fisheye ? camera.fov_deg <= kWidestFisheye : camera.fov_deg < 180.0f)))
+    return fail(is_fisheye ? "the camera's field of view is not between 0 and 360 degrees"
+                           : "the camera's field of view is not between 0 and 180 degrees",
+                "give another one");
+  if (!(camera.height > 0.0f && camera.height <= kFarthest))
+    return fail("the camera's height is not above 0, or more than 1e9", "give another one");
+  return {};
+}
 
 CameraAxes camera_axes(const Camera& camera) {
   const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.eye));

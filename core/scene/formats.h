@@ -27,9 +27,13 @@ struct SceneFormat {
 // files that exists.
 [[nodiscard]] std::span<const std::reference_wrapper<const SceneFormat>> scene_formats();
 
-// The warning about triangles with a vertex that is NaN or infinite, for every format.
+// The warnings about numbers of a vertex that are NaN or infinite, for every format; of its place:
 inline constexpr const char* kUnplaced = "faces on vertices that are no finite numbers are left out";
 inline constexpr const char* kNotDrawn = "they are not drawn";
+// Of the others:
+inline constexpr const char* kUnfit =
+    "normals, colours and texture coordinates that are no finite numbers are left out";
+inline constexpr const char* kUnfitLost = "faces are flat, white or of one colour there";
 
 // The file's extension in lower case, with its dot.
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& file);

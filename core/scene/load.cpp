@@ -90,7 +90,7 @@ Expected<Scene> load_scene(const std::filesystem::path& path, const LoadOptions&
   Warnings& heard = options.confine || !warnings ? own : *warnings;
   MemoryLimit limit(options.limit_bytes);
   InputFiles files(*file, options.confine);
-  Loading loading{heard, progress, limit, files, options.shading, options.animation, options.variant};
+  Loading loading{heard, progress, limit, files, options};
   loading.strokes.points.diameter = options.point_size;
   loading.strokes.lines.diameter = options.line_width;
   const SceneFormat* const format = find_scene_format(*file);
@@ -120,62 +120,80 @@ Expected<Scene> load_scene(const std::filesystem::path& path, const LoadOptions&
   return scene;
 }
 
-Expected<void> check_scene(const Scene& scene) {
-  const auto fail = [&scene](const std::string& what, const std::string& remedy) {
-    return error(scene.source, what, remedy);
+namespace {
+
+constexpr char kExportAgain[] = "export it again";
+
+// Not too many, and an entry of each array for each vertex or triangle.
+Expected<void> check_sizes(const std::string& file, const Mesh& mesh) {
+  const auto over = [&](std::size_t n, const char* what, std::size_t most) {
+    return error(file, "holds " + std::to_string(n) + what + ", the limit is " + std::to_string(most),
+                 "split it");
   };
-  const Mesh& mesh = *scene.mesh;
-  if (mesh.triangles.empty()) return fail("holds no triangles", "there is nothing to draw");
-  if (mesh.triangles.size() > kMaxTriangles)
-    return fail("holds " + std::to_string(mesh.triangles.size()) + " triangles, the limit is " +
-                    std::to_string(kMaxTriangles),
-                "split it");
-  if (mesh.positions.size() > kMostVertices)
-    return fail("holds " + std::to_string(mesh.positions.size()) + " vertices, the limit is " +
-                    std::to_string(kMostVertices),
-                "split it");
+  if (mesh.triangles.empty()) return error(file, "holds no triangles", "there is nothing to draw");
+  if (mesh.triangles.size() > kMaxTriangles) return over(mesh.triangles.size(), " triangles", kMaxTriangles);
+  if (mesh.positions.size() > kMostVertices) return over(mesh.positions.size(), " vertices", kMostVertices);
   if (mesh.normals.size() != mesh.positions.size() ||
       mesh.triangle_materials.size() != mesh.triangles.size() || !one_each_or_none(mesh.texcoords, mesh) ||
       !one_each_or_none(mesh.texcoords1, mesh) || !one_each_or_none(mesh.colors, mesh) ||
       !one_each_or_none(mesh.tangents, mesh))
-    return fail("its arrays do not have one entry for each vertex or triangle", "export it again");
-  const auto no_number = [&](const std::string& what, std::size_t vertex) {
-    return fail(what + std::to_string(vertex) + " is not a finite number", "export it again");
-  };
+    return error(file, "its arrays do not have one entry for each vertex or triangle", kExportAgain);
+  return {};
+}
+
+Expected<void> check_numbers(const std::string& file, const Mesh& mesh) {
   const std::size_t vertices = mesh.positions.size();
-  const std::size_t bad = first_where(
-      vertices, [&](std::size_t i) { return !is_finite(mesh.positions[i]) || !is_finite(mesh.normals[i]); });
-  if (bad < vertices) return no_number("vertex ", bad);
+  const auto check = [&](const std::string& what, std::size_t n, const auto& is_sound) -> Expected<void> {
+    const std::size_t bad = first_where(n, [&](std::size_t i) { return !is_sound(i); });
+    if (bad == n) return {};
+    return error(file, what + std::to_string(bad) + " is not a finite number", kExportAgain);
+  };
+  const auto all_of = [](const auto& values) {
+    return [&values](std::size_t i) { return is_finite(values[i]); };
+  };
+  Expected<void> checked = check("vertex ", vertices, [&](std::size_t i) {
+    return is_finite(mesh.positions[i]) && is_finite(mesh.normals[i]);
+  });
+  if (!checked) return checked;
   const std::size_t far = first_where(vertices, [&](std::size_t i) {
     const glm::vec3 p = glm::abs(mesh.positions[i]);
     return std::max({p.x, p.y, p.z}) > kFarthest;
   });
   if (far < vertices)
-    return fail("vertex " + std::to_string(far) + " is more than 1e9 from the origin",
-                "scale the scene down");
+    return error(file, "vertex " + std::to_string(far) + " is more than 1e9 from the origin",
+                 "scale the scene down");
   for (const std::vector<glm::vec2>* texcoords : {&mesh.texcoords, &mesh.texcoords1})
-    for (std::size_t i = 0; i < texcoords->size(); ++i)
-      if (!is_finite(glm::vec3((*texcoords)[i], 0.0f)))
-        return no_number("the texture coordinate of vertex ", i);
-  for (std::size_t i = 0; i < mesh.colors.size(); ++i)
-    if (!is_finite(glm::vec3(mesh.colors[i])) || !std::isfinite(mesh.colors[i].a))
-      return no_number("the colour of vertex ", i);
-  for (std::size_t i = 0; i < mesh.tangents.size(); ++i)
-    if (!is_finite(glm::vec3(mesh.tangents[i])) || !std::isfinite(mesh.tangents[i].w))
-      return no_number("the tangent of vertex ", i);
+    if (checked = check("the texture coordinate of vertex ", texcoords->size(), all_of(*texcoords)); !checked)
+      return checked;
+  if (checked = check("the colour of vertex ", mesh.colors.size(), all_of(mesh.colors)); !checked)
+    return checked;
+  return check("the tangent of vertex ", mesh.tangents.size(), all_of(mesh.tangents));
+}
+
+// What its materials and triangles name is there.
+Expected<void> check_references(const std::string& file, const Mesh& mesh) {
   for (const Material& m : mesh.materials)
     if (m.maps >= as_int(mesh.maps.size()))
-      return fail("material '" + m.name + "' names texture maps that do not exist", "export it again");
+      return error(file, "material '" + m.name + "' names texture maps that do not exist", kExportAgain);
   if (!std::all_of(mesh.maps.begin(), mesh.maps.end(),
                    [&](const auto& m) { return names_known_textures(m, mesh); }))
-    return fail("a material names a texture that does not exist", "export it again");
+    return error(file, "a material names a texture that does not exist", kExportAgain);
   const std::size_t lost = first_where(mesh.triangles.size(), [&](std::size_t i) {
     const glm::uvec3& t = mesh.triangles[i];
-    return std::max({t.x, t.y, t.z}) >= vertices || mesh.triangle_materials[i] >= mesh.materials.size();
+    return std::max({t.x, t.y, t.z}) >= mesh.positions.size() ||
+           mesh.triangle_materials[i] >= mesh.materials.size();
   });
   if (lost < mesh.triangles.size())
-    return fail("triangle " + std::to_string(lost) + " names a vertex or material that does not exist",
-                "export it again");
+    return error(file, "triangle " + std::to_string(lost) + " names a vertex or material that does not exist",
+                 kExportAgain);
+  return {};
+}
+
+}  // namespace
+
+Expected<void> check_scene(const Scene& scene) {
+  for (const auto check : {check_sizes, check_numbers, check_references})
+    if (Expected<void> checked = check(scene.source, *scene.mesh); !checked) return checked;
   return {};
 }
 

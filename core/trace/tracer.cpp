@@ -10,8 +10,8 @@
 #include "core/bsp/moving/posed_trees.h"
 #include "core/bsp/wide/wide_on_demand.h"
 #include "core/trace/lanes/lane_steps.h"
+#include "core/trace/rays/coherence.h"
 #include "core/trace/rays/ray_sorter.h"
-#include "core/trace/rays/rays_part.h"
 #include "core/trace/walk/kernels.h"
 #include "pinocchio/conversion.h"
 #include "pinocchio/error.h"
@@ -172,7 +172,7 @@ namespace {
 
 // Null: the rays are traced in their own order. Allocates once per thread.
 RaySorter* sorter_for(Isa isa, const RayColumns& rays, std::size_t n) {
-  if (n < kLeastSorted || isa == Isa::scalar || !rays_diverge(rays, n)) return nullptr;
+  if (n < kLeastSorted || isa == Isa::scalar || !sorting_pays(rays, n)) return nullptr;
   static thread_local RaySorter sorter;
   return &sorter;
 }
@@ -180,7 +180,7 @@ RaySorter* sorter_for(Isa isa, const RayColumns& rays, std::size_t n) {
 }  // namespace
 
 const WideTree* Tracer::wide_tree_for(const RayColumns& rays, std::size_t n) const {
-  if (!wide_ || !rays_part(rays, n, wide_->center(), wide_->apart())) return nullptr;
+  if (!wide_ || !are_incoherent(rays, n, wide_->center(), wide_->apart())) return nullptr;
   return wide_->tree_after(n);
 }
 

@@ -67,7 +67,9 @@ def main(file: str, out: str, pictures: int, workers: int = 2, shard_size: int =
     running: dict[Any, tuple[int, Any]] = {}
     cluster: Any = ray
     ray.init(ignore_reinit_error=True, log_to_driver=False, include_dashboard=False)
-    threads = max(1, int(cluster.cluster_resources()["CPU"]) // workers)
+    cores = int(cluster.cluster_resources()["CPU"])
+    workers = max(1, min(workers, cores))
+    threads = cores // workers
     remote: Any = ray.remote(num_cpus=threads, max_restarts=-1)(Worker)
     actors = [remote.remote(str(pathlib.Path(file).resolve()), str(folder.resolve()), threads) for _ in range(workers)]
     ray.get([actor.__ray_ready__.remote() for actor in actors])

@@ -34,7 +34,8 @@ def main(file: str, out: str, steps: int = 10) -> None:
     for part in numpy.linspace(0, 1, steps):
         limits = [joint.limit for joint in robot.actuated_joints]
         robot.update_cfg([low + part * (high - low) for low, high in
-                          ((limit.lower, limit.upper) if limit else (-numpy.pi, numpy.pi) for limit in limits)])
+                          ((-numpy.pi, numpy.pi) if limit is None or limit.lower is None else (limit.lower, limit.upper)
+                           for limit in limits)])
         poses.append(poses_of(robot))
     with pn.Engine() as engine:
         arrays: dict[str, Any] = engine.render_many(scene, [camera_of(scene)], SIZE, poses=poses, spp=4,

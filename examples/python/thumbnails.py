@@ -19,7 +19,7 @@ def main(folder: str, to: str, size: int = 256) -> None:
     engine, out = pn.Engine(), pathlib.Path(to)
     out.mkdir(parents=True, exist_ok=True)
     for path in sorted(pathlib.Path(folder).iterdir()):
-        if path.suffix.lower() not in (".gltf", ".glb", ".obj", ".ply"):
+        if path.suffix.lower() not in (".gltf", ".glb", ".obj", ".ply", ".stl"):
             continue
         try:
             scene = pn.load_scene(path)
@@ -27,8 +27,9 @@ def main(folder: str, to: str, size: int = 256) -> None:
             print(error, file=sys.stderr)
             continue
         picture = engine.render(scene, scene.camera(), size=(size, size), spp=4)
-        Image.fromarray(on_screen(picture.color)).save(out / (path.stem + ".png"))
-        print(out / (path.stem + ".png"), f"{picture.record['ms']:.0f} ms")
+        file = out / (path.name + ".png")
+        Image.fromarray(on_screen(picture.color)).save(file)
+        print(file, f"{picture.record['ms']:.0f} ms")
 
 
 if __name__ == "__main__":

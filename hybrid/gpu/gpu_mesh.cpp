@@ -15,7 +15,7 @@ namespace {
 
 // Layouts of shaders/scene_fetch.glsl.
 struct MaterialTexels {
-  glm::vec4 ambient_shininess, diffuse_maps, specular_alpha, emission, layer_grazing;
+  glm::vec4 ambient_shininess, diffuse_maps, specular_alpha, emission_transmission, layer_grazing;
   LayerTexels layers;
 };
 struct LightTexels {
@@ -25,11 +25,11 @@ struct LightTexels {
 std::vector<MaterialTexels> material_texels(const Mesh& mesh) {
   std::vector<MaterialTexels> texels;
   for (const Material& m : mesh.materials)
-    texels.push_back(
-        {glm::vec4(m.ambient, m.shininess), glm::vec4(m.diffuse, as_float(m.maps + 1)),
-         glm::vec4(m.specular, m.ggx_alpha), glm::vec4(m.emission, 0.0f),
-         glm::vec4(m.layer, m.grazing, (m.transmits() ? 1.0f : 0.0f) + (m.layers.any() ? 2.0f : 0.0f)),
-         layer_texels(m.layers)});
+    texels.push_back({glm::vec4(m.ambient, m.shininess), glm::vec4(m.diffuse, as_float(m.maps + 1)),
+                      glm::vec4(m.specular, m.ggx_alpha), glm::vec4(m.emission, m.layer.z),
+                      glm::vec4(glm::vec2(m.layer), m.grazing,
+                                (m.transmits() ? 1.0f : 0.0f) + (m.layers.any() ? 2.0f : 0.0f)),
+                      layer_texels(m.layers)});
   return texels;
 }
 

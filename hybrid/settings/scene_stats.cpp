@@ -176,7 +176,7 @@ void recount_lights(const Scene& scene, SceneStats& stats) {
   stats.lights = as_int(scene.lights.size());
   stats.casting_lights = stats.idle_lights = 0;
   stats.environment = scene.environment != nullptr;
-  stats.studio = has_studio_light(scene);
+  stats.studio = has_studio_sky(scene);
   stats.sized_lights = std::ranges::any_of(scene.lights, &Light::has_size);
   for (const Light& light : scene.lights) {
     if (!may_reach(light, scene)) {

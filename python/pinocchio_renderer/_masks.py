@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Optional, Sequence, Set, Tuple, Union
 
 from ._core import Camera, Engine, Error, Scene
@@ -25,19 +26,18 @@ def boxes(ids: ArrayLike) -> Dict[int, Tuple[int, int, int, int]]:
     picture = numpy.asarray(ids)
     if picture.ndim != 2:
         raise Error(f"ids has the shape {picture.shape}; give the ids of one picture, (height, width)")
-    numbers, places = numpy.unique(picture, return_inverse=True)
-    places = places.reshape(picture.shape)
-    found = {}
-    rows, columns = numpy.indices(picture.shape)
-    low = numpy.full((len(numbers), 2), max(picture.shape, default=0))
-    high = numpy.zeros((len(numbers), 2), int)
-    for axis, of_pixel in enumerate((columns, rows)):
-        numpy.minimum.at(low[:, axis], places, of_pixel)
-        numpy.maximum.at(high[:, axis], places, of_pixel + 1)
-    for i, number in enumerate(numbers):
-        if number != NOTHING:
-            found[int(number)] = (int(low[i, 0]), int(low[i, 1]), int(high[i, 0]), int(high[i, 1]))
-    return found
+    if picture.size and picture.dtype.kind not in "iu":
+        raise Error(f"ids is of the type {picture.dtype}; give whole numbers, as Result.objects are")
+    found: Dict[int, Tuple[int, int, int, int]] = {}
+    for y, row in enumerate(picture):  # a few numbers in each
+        begins = numpy.flatnonzero(numpy.diff(row, prepend=row[:1] + 1))
+        ends = numpy.append(begins[1:], len(row))
+        for number, x0, x1 in zip(row[begins].tolist(), begins.tolist(), ends.tolist()):
+            if number == NOTHING:
+                continue
+            box = found.get(number, (x0, y, x1, y + 1))
+            found[number] = (min(box[0], x0), box[1], max(box[2], x1), y + 1)
+    return dict(sorted(found.items()))
 
 
 def _number(scene: Scene, node: Node) -> int:
@@ -101,8 +101,8 @@ def _camera(scene: Scene, camera: Optional[Union[int, str]]) -> Camera:
     for one in cameras:
         if one.name == camera:
             return one
-    if isinstance(camera, int) and 0 <= camera < len(cameras):
-        return cameras[camera]
+    if not isinstance(camera, str) and 0 <= operator.index(camera) < len(cameras):
+        return cameras[operator.index(camera)]
     raise Error(f"the scene has no camera {camera!r}; Scene.cameras lists them")
 
 

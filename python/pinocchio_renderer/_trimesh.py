@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterable, Optional
+from typing import TYPE_CHECKING, Any, Iterable, Optional, Tuple
 
 from ._core import Error, Light, Material, Scene, assemble
 
@@ -23,6 +23,13 @@ def _image(material: Any) -> Any:
     return image if image is not None else getattr(material, "image", None)
 
 
+def _factor(material: Any) -> Tuple[float, ...]:
+    """The material's own colour, linear: a glTF file's factor, or an MTL file's Kd."""
+    import numpy
+
+    return tuple(map(float, numpy.asarray(material.main_color, numpy.float32)[:3] / 255))
+
+
 def _surface(mesh: Any, material: Optional[Material]) -> dict[str, Any]:
     """Keyword arguments for Scene: the given material, else the mesh's visual."""
     import numpy
@@ -33,9 +40,11 @@ def _surface(mesh: Any, material: Optional[Material]) -> dict[str, Any]:
     if visual.kind == "texture" and visual.uv is not None and _image(visual.material) is not None:
         texture = numpy.ascontiguousarray(numpy.asarray(_image(visual.material).convert("RGBA")))
         uvs = numpy.asarray(visual.uv, numpy.float32) * [1, -1] + [0, 1]  # trimesh counts v upwards
-        return {"uvs": uvs.astype(numpy.float32), "materials": Material(diffuse=(1, 1, 1), texture=texture)}
+        own = getattr(visual.material, "baseColorFactor", None)
+        diffuse = (1.0, 1.0, 1.0) if own is None else _factor(visual.material)
+        return {"uvs": uvs.astype(numpy.float32), "materials": Material(diffuse=diffuse, texture=texture)}
     if visual.kind == "texture":
-        return {"materials": Material(diffuse=_linear(visual.material.main_color))}
+        return {"materials": Material(diffuse=_factor(visual.material))}
     if visual.kind == "vertex":
         return {"colors": _linear(visual.vertex_colors)}
     if visual.kind == "face":  # as materials: a mesh may have as many triangles as vertices
@@ -58,12 +67,15 @@ def from_trimesh(
     """A Scene from a trimesh.Trimesh, or from a trimesh.Scene, whose geometry becomes nodes that can be moved.
 
     smooth: shade with the mesh's vertex normals. False: triangles are flat.
-    material: a Material that replaces the mesh's own colours or texture.
+    material: a Material that replaces the mesh's own colours or texture. Colours of materials are linear, as in glTF and
+    MTL files; those of vertices and faces are sRGB.
     lights: a list of Light. ambient: three numbers, linear.
     Raises Error if there are no triangles.
     """
     import numpy
 
+    if not hasattr(mesh, "geometry") and not hasattr(mesh, "faces"):
+        raise Error(f"a {type(mesh).__name__} has no triangles; give a trimesh.Trimesh or a trimesh.Scene")
     if hasattr(mesh, "geometry") and hasattr(mesh, "graph"):
         parts = {}
         for node in mesh.graph.nodes_geometry:

@@ -13,8 +13,6 @@
 namespace pinocchio::python {
 namespace {
 
-using Picture = nb::ndarray<nb::ndim<3>, nb::c_contig, nb::device::cpu>;
-
 // IEC 61966-2-1
 float linear_of(std::uint8_t srgb) {
   const float c = as_float(srgb) / 255.0f;
@@ -22,10 +20,13 @@ float linear_of(std::uint8_t srgb) {
 }
 
 template <class T, class Convert>
-Image<glm::vec3> image_of(const Picture& array, Convert convert) {
+Image<glm::vec3> image_of(nb::handle source, const char* type, Convert convert) {
+  using Picture = nb::ndarray<const T, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
+  const auto array = nb::cast<Picture>(array_of(source, "a picture", type, {-1, -1, -1}), false);
   const std::size_t channels = array.shape(2);
+  if (channels < 3 || channels > 4) throw Error("a picture must be an array (height, width, 3 or 4)");
   Image<glm::vec3> image({array.shape(1), array.shape(0)});
-  const T* from = static_cast<const T*>(array.data());
+  const T* from = array.data();
   for (glm::vec3& pixel : image.pixels()) {
     pixel = {convert(from[0]), convert(from[1]), convert(from[2])};
     from += channels;
@@ -33,14 +34,14 @@ Image<glm::vec3> image_of(const Picture& array, Convert convert) {
   return image;
 }
 
-Image<glm::vec3> image_of(const Picture& array) {
-  if (array.shape(2) < 3 || array.shape(2) > 4)
-    throw Error("a picture must be an array (height, width, 3 or 4)");
-  if (array.dtype() == nb::dtype<std::uint8_t>()) return image_of<std::uint8_t>(array, linear_of);
-  if (array.dtype() == nb::dtype<float>()) return image_of<float>(array, [](float v) { return v; });
-  if (array.dtype() == nb::dtype<double>())
-    return image_of<double>(array, [](double v) { return as_float(v); });
-  throw Error("a picture must have the type float32 or float64 (linear) or uint8 (sRGB)");
+Image<glm::vec3> image_of(nb::handle source) {
+  const nb::object type = nb::module_::import_("numpy").attr("asarray")(source).attr("dtype");
+  if (nb::cast<std::string>(type.attr("name")) == "uint8")
+    return image_of<std::uint8_t>(source, "uint8", linear_of);
+  if (nb::cast<std::string>(type.attr("kind")) == "f")
+    return image_of<float>(source, "float32", [](float v) { return v; });
+  throw Error("a picture has the type " + std::string(nb::str(type).c_str()) +
+              "; it needs floats (linear) or uint8 (sRGB)");
 }
 
 Image<glm::vec3> image_of_exr(const std::filesystem::path& path) {
@@ -62,8 +63,9 @@ Image<glm::vec3> picture_of(const nb::object& from) {
     for (std::size_t i = 0; i < image.pixels().size(); ++i) image[i] = glm::vec3(frame.color[i]);
     return image;
   }
-  if (nb::ndarray_check(from)) return image_of(nb::cast<Picture>(from));
-  return image_of_exr(nb::cast<std::filesystem::path>(from));
+  if (nb::isinstance<nb::str>(from) || nb::hasattr(from, "__fspath__"))
+    return image_of_exr(nb::cast<std::filesystem::path>(from));
+  return image_of(from);
 }
 
 nb::dict compare(const nb::object& a, const nb::object& b, float pixels_per_degree) {
@@ -109,7 +111,7 @@ void bind_compare(nb::module_& module) {
              "The difference between the picture `a` and its reference `b`, as a dict: 'rmse', 'relmse', "
              "'psnr' (dB), 'max',\n"
              "'flip' (mean LDR-FLIP) and 'flip_errors' (height, width) float32, in [0, 1].\n"
-             "a, b: a Result, an EXR file's path, or an array (height, width, 3 or 4): float is linear, "
+             "a, b: a Result, an EXR file's path, or an array (height, width, 3 or 4): floats are linear, "
              "uint8 is sRGB.\n"
              "pixels_per_degree: pixels per degree of visual angle, 1 to 1000.\n"
              "Raises Error if the sizes differ, a value is not finite, or a file cannot be read.");

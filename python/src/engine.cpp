@@ -63,6 +63,7 @@ nb::object given_array(const LayerRow& output, const std::vector<std::size_t>& s
     throw nb::type_error((named + "is on another device (DLPack's type " + std::to_string(device) +
                           "); the CPU fills it: give an array of its memory, and copy that to the device")
                              .c_str());
+  if (array.size() == 0 && shape.front() == 0) return nb::borrow(given);
   bool fits = array.dtype() == pixel_type(output, to.mask_bytes).type && array.ndim() == shape.size() &&
               array.is_valid();
   std::int64_t stride = 1;
@@ -122,10 +123,10 @@ class PyEngine {
   }
 
   nb::dict render_many(const PyScene& given, const std::vector<CameraChoice>& choices, const Size& pixels,
-                       const std::vector<std::string>& outputs, const std::optional<nb::dict>& out,
+                       const std::vector<std::string>& outputs, const std::optional<Dict>& given_out,
                        const PyScene* motion_scene,
                        const std::optional<std::vector<CameraChoice>>& motion_cameras,
-                       const std::optional<std::vector<nb::dict>>& given_poses, const nb::kwargs& arguments) {
+                       const std::optional<std::vector<Dict>>& given_poses, const nb::kwargs& arguments) {
     check_open();
     if (given_poses && (motion_scene || motion_cameras))
       throw Error("with poses, motion leads to the next picture; leave out motion_scene and motion_cameras");
@@ -137,15 +138,15 @@ class PyEngine {
     const Poses poses = given_poses ? poses_of(scene, choices, *given_poses) : Poses{};
     const std::size_t pictures = given_poses ? poses.pictures.size() : cameras.size();
     const Scene drawn = cameras.empty() ? scene : lit(scene, cameras.front());
+    const nb::dict out = given_out ? given_out->read("out") : nb::dict();
     nb::dict result;
     FrameArrays to;
     to.mask_bytes = mask_bytes_of(drawn, settings, given_poses.has_value());
     for (const std::string& name : outputs) {
       const LayerRow& output = output_named(name);
       const std::vector<std::size_t> shape = shape_of(output, pictures, size, to.mask_bytes);
-      result[name.c_str()] = out && out->contains(name.c_str())
-                                 ? given_array(output, shape, (*out)[name.c_str()], to)
-                                 : new_array(output, shape, to);
+      result[name.c_str()] = out.contains(name.c_str()) ? given_array(output, shape, out[name.c_str()], to)
+                                                        : new_array(output, shape, to);
     }
     if (pictures == 0) return result;
     const std::vector<MotionTo> motion = to.motion && !given_poses
@@ -210,8 +211,11 @@ void bind_engine(nb::module_& module) {
       "with their nodes. The next pose is made while one is drawn. Motion leads to the next picture, and is "
       "0 "
       "in the last one.\n"
-      "Settings and errors as for render; TypeError if an array of `out` does not fit. Small pictures keep\n"
-      "all threads busy.";
+      "A scene without lights gets one above the first camera.\n"
+      "Settings and errors as for render; Error too if an array of `out` has another shape or type, "
+      "TypeError "
+      "if it is no array\n"
+      "of the CPU's memory. Small pictures keep all threads busy.";
   nb::class_<PyEngine> bound(
       module, "Engine",
       "Worker threads, the last scene's tree and, if the settings need it, an OpenGL context.\n"

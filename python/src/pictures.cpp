@@ -93,8 +93,7 @@ std::vector<MotionTo> motions(const Scene& scene, const std::vector<Camera>& cam
   return all;
 }
 
-Poses poses_of(const Scene& scene, const std::vector<CameraChoice>& choices,
-               const std::vector<nb::dict>& given) {
+Poses poses_of(const Scene& scene, const std::vector<CameraChoice>& choices, const std::vector<Dict>& given) {
   if (choices.size() != given.size() && choices.size() != 1)
     throw Error("there are " + std::to_string(given.size()) + " poses and " + std::to_string(choices.size()) +
                 " cameras; give a camera for each pose, or one for all");
@@ -102,7 +101,8 @@ Poses poses_of(const Scene& scene, const std::vector<CameraChoice>& choices,
   std::vector<std::size_t> of_picture;
   NodeNumbers numbers(scene);
   for (std::size_t i = 0; i < given.size(); ++i) {
-    if (i == 0 || !given[i].is(given[i - 1])) poses.moves.push_back(transforms_of(numbers, given[i]));
+    if (i == 0 || !given[i].source.is(given[i - 1].source))
+      poses.moves.push_back(transforms_of(numbers, given[i]));
     of_picture.push_back(poses.moves.size() - 1);
   }
   for (std::size_t i = 0; i < given.size(); ++i) {

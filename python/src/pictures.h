@@ -38,6 +38,6 @@ struct Poses {
 
 // A camera for each pose, or one for all. A camera of the scene moves with its node.
 [[nodiscard]] Poses poses_of(const Scene& scene, const std::vector<CameraChoice>& choices,
-                             const std::vector<nb::dict>& given);
+                             const std::vector<Dict>& given);
 
 }  // namespace pinocchio::python

@@ -1,6 +1,7 @@
 #include "python/src/result.h"
 
 #include <pinocchio/layers.h>
+#include <pinocchio/names.h>
 
 #include <nanobind/stl/filesystem.h>
 #include <algorithm>
@@ -10,7 +11,6 @@
 
 #include "pinocchio/conversion.h"
 #include "python/src/layers.h"
-#include "python/src/png.h"
 #include "python/src/scene/scene.h"
 #include "python/src/support/interrupt.h"
 #include "python/src/support/parts.h"
@@ -90,8 +90,8 @@ auto identities(nb::handle self) {
     Image<std::uint32_t> made(result.frame.ids.size());
     FrameArrays to;
     to.*Array = made.pixels().data();
-    write_layers(result.frame, to);
-    image = std::move(made);
+    without_gil([&](Progress*) { return write_layers(result.frame, to), true; });
+    if (image.empty()) image = std::move(made);
   }
   return picture(image, self);
 }
@@ -128,6 +128,12 @@ bool has_extension(const std::filesystem::path& path, const char* wanted) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
   return extension == wanted;
+}
+
+ToneMap curve_named(const std::string& name) {
+  const auto curve = parse_name<ToneMap>(kToneMapNames, name);
+  if (!curve) throw Error("tone_map is '" + name + "'; it is 'clip', 'reinhard', 'aces' or 'neutral'");
+  return *curve;
 }
 
 std::string milliseconds(double ms) {
@@ -208,19 +214,29 @@ void bind_result(nb::module_& module) {
           "layer.")
       .def(
           "write_png",
-          [](const Result& r, const std::filesystem::path& path, float exposure) {
+          [](const Result& r, const std::filesystem::path& path, double exposure,
+             const std::string& tone_map) {
             if (!has_extension(path, ".png"))
               throw Error(path.string() + ": write_png writes PNG files; end the name in .png");
-            write_bytes(path, png_of(r.frame, exposure));
+            const PngOptions options{number_within(exposure, "exposure", -64.0, 64.0), curve_named(tone_map)};
+            without_gil([&](Progress*) { return write_png(path, r.frame, options), true; });
           },
-          "path"_a, "exposure"_a = 0.0f,
-          nb::sig("def write_png(self, path: str | os.PathLike[str], exposure: float = 0.0) -> None"),
+          "path"_a, "exposure"_a = 0.0f, "tone_map"_a = "clip",
+          nb::sig("def write_png(self, path: str | os.PathLike[str], exposure: float = 0.0, tone_map: str = "
+                  "'clip') -> None"),
           "Writes the colour as a screen shows it: sRGB, 8 bits, with alpha where neither an environment nor "
           "a "
-          "colour is behind the scene; what is brighter than white is white.\n"
-          "path: the file, which is written whole or not at all. exposure: stops brighter.\n"
-          "Raises Error if the file cannot be written or if its name does not end in .png.")
-      .def("_repr_png_", [](const Result& r) { return png_of(r.frame, 0.0f); })
+          "colour is behind the scene.\n"
+          "path: the file, which is written whole or not at all. exposure: stops brighter, from -64 to 64.\n"
+          "tone_map: the curve of bright light: 'clip' (what is brighter than white is white), 'reinhard', "
+          "'aces' or 'neutral'.\n"
+          "Raises Error if the file cannot be written, if its name does not end in .png or if there is no "
+          "such curve.")
+      .def("_repr_png_",
+           [](const Result& r) {
+             const std::string png = without_gil([&](Progress*) { return encode_png(r.frame); });
+             return nb::bytes(png.data(), png.size());
+           })
       .def("__repr__", [](const Result& r) {
         return "<Result: " + std::to_string(r.frame.color.width()) + "x" +
                std::to_string(r.frame.color.height()) + " pixels, " +

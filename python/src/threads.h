@@ -4,7 +4,9 @@
 #include <pinocchio/settings.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
+#include <cstring>
 #include <thread>
 
 #include "pinocchio/conversion.h"
@@ -17,7 +19,13 @@ inline int threads_wanted(int given) {
   if (given < 0 || given > kMostThreads)
     throw Error("threads must be from 0 (one a core) to " + std::to_string(kMostThreads));
   const char* const said = std::getenv("PINOCCHIO_THREADS");
-  return given > 0 || !said ? given : std::clamp(std::atoi(said), 0, kMostThreads);
+  if (given > 0 || !said || *said == '\0') return given;
+  int number = -1;
+  const char* const end = said + std::strlen(said);
+  if (std::from_chars(said, end, number).ptr != end || number < 0 || number > kMostThreads)
+    throw Error("PINOCCHIO_THREADS is '" + std::string(said) + "'; it is a number from 0 (one a core) to " +
+                std::to_string(kMostThreads));
+  return number;
 }
 
 inline int or_one_a_core(int threads) {

@@ -1,4 +1,6 @@
 """What a wrong argument gets: one line that names it and says what it should be."""
+import types
+
 import numpy
 import pinocchio_renderer as pn
 import pytest
@@ -35,7 +37,38 @@ def node_scene():
         (lambda: pn.Scene(VERTICES, TRIANGLES, ambient=(1, 1)), r"ambient has the shape \(2,\); it is an array \(3,\)"),
         (lambda: pn.Scene(VERTICES, TRIANGLES, lights=["sun"]), r"lights\[0\] is a str; it must be a Light"),
         (lambda: pn.Scene(VERTICES * numpy.nan, TRIANGLES), "not finite|not a number|finite"),
+        (lambda: pn.Scene(VERTICES, TRIANGLES, normals=VERTICES * numpy.inf), "normals holds (nan|inf|-inf) in row 0; it needs"),
+        (lambda: pn.Scene(VERTICES, TRIANGLES, colors=[[0, numpy.nan, 0]] * 2), "colors holds nan; it needs finite numbers"),
+        (lambda: pn.Scene(VERTICES, TRIANGLES, colors=[[0.5, -1, 0]] * 4), "colors holds -1.0; it needs finite numbers from 0 on"),
+        (lambda: pn.Scene(VERTICES, TRIANGLES, colors=[[0, 200, 0]] * 4), "colors holds whole numbers above 1; it is linear"),
+        (
+            lambda: pn.Scene(VERTICES, TRIANGLES, colors=numpy.ones((2, 3)), triangle_materials=[0, 77]),
+            "triangle_materials holds 77; there are 1 materials",
+        ),
         (lambda: pn.Material(diffuse="red"), "diffuse is of the type <U3"),
+        (lambda: pn.Material(diffuse=(0, -1, 0)), r"diffuse is \(0, -1, 0\); it needs numbers from 0 on"),
+        (lambda: pn.Material(ior=0), "ior is 0.0; it is a finite number, 0.001 or more"),
+        (lambda: pn.Material(shininess=numpy.nan), "shininess is nan; it is a finite number"),
+        (lambda: pn.Light((0, 0, 1), color=(-5, 0, 0)), r"color is \(-5, 0, 0\); it needs numbers from 0 on"),
+        (lambda: pn.Light((0, 0, 1), range=-1), "range is -1.0; it is above 0"),
+        (lambda: pn.Light((0, 0, 1), range=numpy.nan), "range is nan; it is above 0"),
+        (lambda: pn.Light((0, 0, 1), (0, 0, -1), outer_cone=numpy.nan), "outer_cone is nan; it is a finite number"),
+        (lambda: pn.Light((0, 0, 1), (0, 0, -1), inner_cone=50), "inner_cone is 50.0; .*at most 45"),
+        (lambda: node_scene().posed({(1, 2): numpy.eye(4)}), r"transforms names \(1, 2\); give a node's name or index"),
+        (lambda: node_scene().posed([numpy.eye(4)]), "transforms is a list; it is a dict"),
+        (
+            lambda: node_scene().posed({"part": numpy.array([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [5, 0, 0, 1.0]])}),
+            r"the transform of 'part' has the last row \[5. 0. 0. 1.\]; it is \(0, 0, 0, 1\)",
+        ),
+        (lambda: pn.assemble({1: pn.Scene(VERTICES, TRIANGLES)}), "a part is named 1; its name is a text"),
+        (lambda: pn.from_trimesh([1, 2]), "a list has no triangles; give a trimesh.Trimesh"),
+        (lambda: pn.boxes(numpy.full((2, 2), numpy.nan)), "ids is of the type float64; give whole numbers"),
+        (lambda: pn.compare(numpy.zeros((4, 4)), numpy.zeros((4, 4))), r"a picture has the shape \(4, 4\)"),
+        (lambda: pn.compare(numpy.zeros((4, 4, 3), int), numpy.zeros((4, 4, 3))), "a picture has the type int64; it needs"),
+        (
+            lambda: pn.Engine().render(node_scene(), size=(4, 4), background=("a", "b", "c")),
+            r"background is \('a', 'b', 'c'\); it is",
+        ),
         (lambda: pn.Material(texture=numpy.zeros((2, 2), numpy.uint8)), r"texture has the shape \(2, 2\)"),
         (lambda: pn.Material(texture=numpy.full((2, 2, 3), 0.5)), "texture holds 0.5; .*from 0 to 255"),
         (lambda: pn.Light(position=(0, 0)), r"position has the shape \(2,\)"),
@@ -71,6 +104,62 @@ def test_a_wrong_argument_is_named(call, says):
     with pytest.raises(pn.Error, match=says) as caught:
         call()
     assert "incompatible function arguments" not in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_pictures_that_cannot_be_written_to_are_compared():
+    picture = numpy.linspace(0, 1, 4 * 4 * 3).reshape(4, 4, 3)
+    for same in (picture.astype(">f4"), numpy.broadcast_to(picture, (4, 4, 3)), picture.tolist(), picture.astype("f2")):
+        assert pn.compare(picture.astype("f4"), same)["max"] < 1e-3
+    shown = (picture * 255).astype(numpy.uint8)
+    shown.flags.writeable = False
+    assert pn.compare(shown, shown)["rmse"] == 0
+
+
+def test_a_generator_of_lights_is_read_once():
+    scene = pn.Scene(VERTICES, TRIANGLES)
+    scene.lights = (pn.Light((0, 0, z)) for z in (1, 2))
+    scene.cameras = map(lambda z: pn.Camera((0, 0, z), (0, 0, 0)), (3, 4))
+    assert len(scene.lights) == len(scene.cameras) == 2
+
+
+def test_mappings_are_taken_as_dicts():
+    moved = types.MappingProxyType({"part": numpy.diag([2.0, 2, 2, 1])})
+    scene = node_scene()
+    assert scene.posed(moved).bounds[1][0] == 2 * scene.bounds[1][0]
+    camera = pn.Camera((0, 0, 4), (0, 0, 0))
+    pictures = pn.Engine().render_many(scene, [camera], (8, 8), poses=[moved, moved])
+    again = pn.Engine().render_many(scene, [camera], (8, 8), poses=[moved, moved], out=types.MappingProxyType(pictures))
+    assert again["color"] is pictures["color"]
+
+
+def test_a_scene_without_nodes_has_no_part_alone():
+    assert pn.Scene(VERTICES, TRIANGLES).only([]) is None
+
+
+def test_colours_of_vertices_and_triangles_are_as_bright_and_keep_materials():
+    camera, engine = pn.Camera((0, 0, 4), (0, 0, 0)), pn.Engine()
+    by_vertex = engine.render(pn.Scene(VERTICES, TRIANGLES, colors=numpy.full((4, 3), 0.5)), camera, (8, 8))
+    by_triangle = engine.render(pn.Scene(VERTICES, TRIANGLES, colors=numpy.full((2, 3), 0.5)), camera, (8, 8))
+    assert by_vertex.albedo[4, 4, 0] == by_triangle.albedo[4, 4, 0] == 0.5
+    materials = [pn.Material(), pn.Material(diffuse=(0.5, 0.5, 0.5), emission=(5, 0, 0))]
+    lit = pn.Scene(VERTICES, TRIANGLES, colors=[[0, 1, 0], [1, 1, 0]], materials=materials, triangle_materials=[0, 1])
+    assert [m.emission for m in lit.materials] == [(0, 0, 0), (5, 0, 0)]
+    assert lit.materials[1].diffuse == (0.5, 0.5, 0)
+
+
+def test_a_spot_light_tells_its_cones():
+    spot = pn.Light((0, 0, 1), (0, 0, -1), inner_cone=10, outer_cone=20)
+    assert (spot.inner_cone, spot.outer_cone) == (pytest.approx(10, abs=1e-3), pytest.approx(20, abs=1e-3))
+
+
+def test_the_variable_of_threads_is_checked(monkeypatch):
+    for wrong in ("abc", "-3", "2x", "5000"):
+        monkeypatch.setenv("PINOCCHIO_THREADS", wrong)
+        with pytest.raises(pn.Error, match=f"PINOCCHIO_THREADS is '{wrong}'; it is a number from 0"):
+            pn.Engine()
+        assert pn.Engine(threads=1).threads == 1
+    monkeypatch.setenv("PINOCCHIO_THREADS", "")
+    pn.Engine()
 
 
 def test_what_numpy_can_convert_is_taken():

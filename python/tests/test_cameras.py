@@ -74,6 +74,15 @@ def test_cameras_copy_pickle_and_show_themselves(name):
     assert camera.projection in repr(camera) or camera.projection == "perspective"
 
 
+def test_a_camera_that_became_wrong_is_refused(scenes):
+    scene, camera = pn.load_scene(scenes / "cornell.gltf"), pn.Camera(**AT)
+    camera.target = camera.eye
+    with pytest.raises(pn.Error, match="the camera's eye and its target are the same point; move one of them"):
+        pn.Engine().render(scene, camera, (8, 8))
+    with pytest.raises(pn.Error, match="same point"):
+        pn.Engine().render_many(scene, [scene.cameras[0], camera], (8, 8), outputs=["color"])
+
+
 def test_wrong_cameras_are_refused():
     with pytest.raises(pn.Error, match="height is 0.0"):
         pn.Camera.orthographic(**AT, height=0)

@@ -186,6 +186,28 @@ def test_after_a_fork_an_engine_says_so(scenes):
     assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 7
 
 
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork")
+def test_a_posed_scene_ends_in_a_fork(scenes):
+    code = (
+        "import os, signal, numpy, pinocchio_renderer as pn\n"
+        "grid = numpy.stack(numpy.meshgrid(numpy.arange(120.0), numpy.arange(120.0)), -1).reshape(-1, 2)\n"
+        "vertices = numpy.c_[grid, numpy.zeros(len(grid))]\n"
+        "at = numpy.arange(119 * 120).reshape(119, 120)[:, :-1].reshape(-1)\n"
+        "part = pn.Scene(vertices, numpy.stack([at, at + 1, at + 120], -1))\n"
+        "still = pn.assemble({'a': part, 'b': part, 'c': part})\n"
+        "moved = numpy.eye(4); moved[0, 3] = 1\n"
+        "scene = still.posed({'a': moved, 'b': moved})\n"
+        "child = os.fork()\n"
+        "if child == 0:\n"
+        "    signal.alarm(30)\n"
+        "    again = scene.posed({'b': moved, 'c': moved})\n"
+        "    del scene, still, again\n"
+        "    os._exit(7)\n"
+        "raise SystemExit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n"
+    )
+    assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 7
+
+
 def test_import_is_quick():
     code = "import time; t = time.process_time(); import pinocchio_renderer as pn; print(time.process_time() - t)"  # on a busy machine, too
     took = [float(subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout) for _ in range(3)]

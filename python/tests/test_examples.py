@@ -24,9 +24,9 @@ def test_thumbnails_of_a_folder(tmp_path):
     (models / "broken.ply").write_text("ply\n")
     (models / "notes.txt").write_text("no model")
     done = run(EXAMPLES / "thumbnails.py", models, out, 32, cwd=tmp_path)
-    assert [p.name for p in out.iterdir()] == ["tetrahedron.png"]
+    assert [p.name for p in out.iterdir()] == ["tetrahedron.obj.png"]
     assert "broken.ply" in done.stderr
-    picture = numpy.asarray(Image.open(out / "tetrahedron.png"))
+    picture = numpy.asarray(Image.open(out / "tetrahedron.obj.png"))
     assert picture.shape == (32, 32, 3) and picture.std() > 5
 
 

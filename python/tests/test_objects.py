@@ -166,6 +166,14 @@ def test_a_result_shows_itself_in_a_notebook(scenes, tmp_path):
     assert (tmp_path / "x.png").read_bytes() == result._repr_png_()
     result.write_png(tmp_path / "bright.PNG", exposure=1)
     assert numpy.asarray(Image.open(tmp_path / "bright.PNG").convert("RGB")).mean() > picture.mean()
+    result.write_png(tmp_path / "filmic.png", exposure=4, tone_map="aces")
+    result.write_png(tmp_path / "clipped.png", exposure=4)
+    filmic, clipped = (numpy.asarray(Image.open(tmp_path / f).convert("RGB")) for f in ("filmic.png", "clipped.png"))
+    assert (filmic == 255).sum() < (clipped == 255).sum()
+    with pytest.raises(pn.Error, match="tone_map is 'film'; it is 'clip', 'reinhard', 'aces' or 'neutral'"):
+        result.write_png(tmp_path / "x.png", tone_map="film")
+    with pytest.raises(pn.Error, match="exposure is nan"):
+        result.write_png(tmp_path / "x.png", exposure=float("nan"))
 
 
 def test_a_png_shows_the_environment():

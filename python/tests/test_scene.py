@@ -2,6 +2,7 @@
 import numpy
 import pinocchio_renderer as pn
 import pytest
+from PIL import Image
 
 from test_tracer import quad
 
@@ -137,6 +138,12 @@ def test_trimesh():
     scene = pn.from_trimesh(box, smooth=False)
     result = pn.Engine().render(scene, size=(32, 32))
     assert tuple(result.albedo[16, 16]) == (1, 0, 0)
+    material = trimesh.visual.material.PBRMaterial(baseColorFactor=[128, 255, 0, 255])
+    box.visual = trimesh.visual.TextureVisuals(uv=numpy.zeros((8, 2)), material=material)
+    assert pn.from_trimesh(box).materials[0].diffuse == pytest.approx((128 / 255, 1, 0))
+    material.baseColorTexture = Image.new("RGB", (2, 2), (255, 255, 255))
+    assert pn.from_trimesh(box).materials[0].diffuse == pytest.approx((128 / 255, 1, 0))
+    box.visual = trimesh.visual.ColorVisuals(box)
     world = trimesh.Scene()
     world.add_geometry(box, node_name="near")
     world.add_geometry(box, node_name="far", transform=trimesh.transformations.translation_matrix([5, 0, 0]))

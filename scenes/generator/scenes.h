@@ -10,8 +10,8 @@
 namespace pinocchio {
 
 struct ProceduralOptions {
-  int triangles =
-      0;  // about how many; 0: as many as the scene has by itself. Scenes of fixed shape ignore it.
+  // About how many; 0: as many as the scene has by itself. Of scenes of a fixed shape, an error.
+  int triangles = 0;
   Progress* progress = nullptr;  // phase "generate"
 };
 

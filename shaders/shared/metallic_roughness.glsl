@@ -21,6 +21,7 @@
 const float kOneByPi = 0.318309886183790671538f;
 const float kRoughestMirror = 0.25f;
 const float kLeastReflectance = 1.0f / 255.0f;  // weaker mirrors are not worth a ray
+const float kLeastTransmission = 1.5f / 255.0f;  // less is a metal's texture that is one step from 1
 
 struct MetallicRoughness {
   vec3 base_color;
@@ -56,7 +57,7 @@ SHARED ShadingParams phong_params(vec3 ambient, vec3 diffuse, vec3 specular, rea
   m.occlusion = 1.0f;
   m.ggx_alpha = 0.0f;
   m.grazing = 1.0f;
-  m.layer = vec2(0.0f);
+  m.layer = vec3(0.0f);
   m.layers = no_layers();
   m.coat_normal = vec3(0.0f);
   return m;
@@ -86,7 +87,7 @@ SHARED real sharp_share(real roughness) {
 SHARED MaterialPoint from_metallic_roughness(READ_ONLY(MetallicRoughness) s, bool as_phong) {
   if (s.unlit) return material_point(phong_params(vec3(0.0f), vec3(0.0f), vec3(0.0f), 1.0f, s.base_color));
   real root = (s.ior - 1.0f) / (s.ior + 1.0f);
-  vec3 dielectric_f0 = min(root * root * s.specular * s.specular_color, vec3(1.0f));
+  vec3 dielectric_f0 = min(root * root * s.specular_color, vec3(1.0f)) * s.specular;
   vec3 f0 = mix(dielectric_f0, s.base_color, s.metallic);
   real opaque = (1.0f - s.metallic) * (1.0f - s.transmission);
   ShadingParams shading = phong_params(s.base_color * (1.0f - s.transmission), s.base_color * opaque * kOneByPi, f0,
@@ -97,10 +98,10 @@ SHARED MaterialPoint from_metallic_roughness(READ_ONLY(MetallicRoughness) s, boo
   } else {
     shading.ggx_alpha = clamp(s.roughness * s.roughness, kLeastAlpha, 1.0f);
     shading.grazing = mix(min(s.specular, 1.0f), 1.0f, s.metallic);
-    shading.layer = vec2(largest_of(dielectric_f0), min(s.specular, 1.0f));
+    shading.layer = vec3(largest_of(dielectric_f0), min(s.specular, 1.0f), s.transmission);
   }
   MaterialPoint m = material_point(shading);
-  boolean transmits = s.transmission > 0.0f && s.metallic < 1.0f;
+  boolean transmits = s.transmission * (1.0f - s.metallic) > kLeastTransmission;
   m.transmittance = pick(transmits, s.base_color * (s.transmission * (1.0f - s.metallic)), vec3(0.0f));
   if (s.volume) m.ior = pick(transmits, s.ior, 1.0f);
   vec3 mirror = f0 * sharp_share(s.roughness);

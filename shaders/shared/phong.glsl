@@ -14,7 +14,8 @@ struct ShadingParams {
   real occlusion;  // share of the ambient light that reaches the point
   real ggx_alpha;  // glTF: roughness squared, above 0. Phong: 0
   real grazing;    // glTF: F90, mirrored at grazing incidence
-  vec2 layer;      // glTF: F0 and F90 of the dielectric layer on the matt one, in its brightest colour
+  vec3 layer;      // glTF: F0 and F90 of the dielectric layer on the matt one, in its brightest colour; the share of the
+                   // light below it that goes through
   Layers layers;   // glTF: above that
   vec3 coat_normal;  // unit, facing the viewer; set where there is a coat
 };
@@ -33,6 +34,17 @@ SHARED real cone_share(LightParams light, vec3 to_light) {
   return cone * cone;
 }
 
+// The light that is left at a distance: none beyond the light's range, and with the falloff of physics it fades
+// towards it by the window that KHR_lights_punctual recommends.
+SHARED vec3 within_range(LightParams light, real distance, vec3 radiance) {
+  if (light.range > 1e30f) return radiance;
+  vec3 left = pick(distance > light.range, vec3(0.0f), radiance);
+  if (!light.inverse_square) return left;
+  real q = distance / light.range;
+  real q2 = q * q;
+  return left * max(1.0f - q2 * q2, 0.0f);
+}
+
 // What comes from a point of the light, as if the light had no size.
 SHARED Incident incident_light(LightParams light, vec3 position, vec3 p_world) {
   Incident result;
@@ -46,7 +58,7 @@ SHARED Incident incident_light(LightParams light, vec3 position, vec3 p_world) {
   vec3 offset = position - p_world;
   real distance = length(offset);
   result.to_light = pick(distance > 0.0f, offset / distance, vec3(0.0f, 1.0f, 0.0f));
-  result.radiance = pick(distance > light.range, vec3(0.0f), result.radiance);
+  result.radiance = within_range(light, distance, result.radiance);
   if (light.inverse_square) result.radiance /= max(distance * distance, 1e-12f);
   if (light.kind == kLightSpot) result.radiance *= cone_share(light, result.to_light);
   if (has_sides(light)) result.radiance *= max(dot(-result.to_light, light.direction), 0.0f);

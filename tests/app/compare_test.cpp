@@ -125,6 +125,12 @@ TEST_F(CompareVerbTest, FoldersPairByNameAndTellOfEach) {
   EXPECT_TRUE(exists("maps/one.exr.png") && exists("maps/sub/two.exr.png"));
   expect_error("new golden --heatmap ./new", 2, "--heatmap ./new: within new, whose pictures are compared");
   expect_error("new golden --heatmap golden/maps", 2, "within golden");
+  write_flat("golden/\xff.exr", 0.5f);
+  write_flat("new/\xff.exr", 0.5f);
+  (void)run("compare new golden --junit bytes.xml");
+  std::ifstream with_bytes(folder_ / "bytes.xml", std::ios::binary);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(with_bytes), {}).find('\xff'), std::string::npos);
+  for (const char* folder : {"new", "golden"}) std::filesystem::remove(folder_ / folder / "\xff.exr");
   std::ifstream in(folder_ / "report.xml");
   const std::string xml(std::istreambuf_iterator<char>(in), {});
   EXPECT_NE(xml.find("tests=\"2\" failures=\"1\" errors=\"0\""), std::string::npos) << xml;
@@ -146,6 +152,12 @@ TEST_F(CompareVerbTest, SequencesPairByNumber) {
     write_flat("b_" + number + ".exr", 0.5f);
   }
   EXPECT_EQ(figures("a.####.exr b_####.exr --max-error max=0")["pairs"].size(), 3u);
+  write_flat("c_8.exr", 0.5f);
+  write_flat("c_9.exr", 0.5f);
+  write_flat("c_10.exr", 0.5f);
+  const nlohmann::json pairs = figures("a.####.exr c_#.exr --max-error max=0")["pairs"];
+  ASSERT_EQ(pairs.size(), 3u);
+  EXPECT_EQ(pairs[2]["name"], "0010");
   expect_error("a.####.exr b.exr", 2, "give #### in both names or in none");
   expect_error("c.####.exr b_####.exr", 4, "there is no EXR or PNG");
 }

@@ -53,7 +53,8 @@ TEST_F(ErrorsTest, CameraPaths) {
   with(R"("frame": 1, "eye": [0, 1, 0], "target": [0, 1, 0])", "same point");
   with(R"("frame": 1, "eye": [0, 1, 2], "target": [0, 1, 0], "fov": -20)", "0 and 180");
   with(R"("frame": 1, "eye": [0, 1, 2], "traget": [0, 1, 0])", "there is no 'traget'");
-  with(R"("frame": 2, "eye": [0, 1, -3], "target": [0, 1, 0], "up": [0, 0, 0])", "its up is not a direction");
+  with(R"("frame": 2, "eye": [0, 1, -3], "target": [0, 1, 0], "up": [0, 0, 0])",
+       "the camera's up is not a direction");
   with(R"("frame": 2, "eye": [0, 1, -3], "target": [0, 1, 0])",
        "in frame 1 the camera's eye is at its target");
   write("plan.json", R"({"depth": 1e999})");

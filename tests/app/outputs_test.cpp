@@ -64,12 +64,21 @@ TEST_F(ApartTest, NoFrameOfARangeIsAnInputOrAnother) {
   std::filesystem::create_symlink("x.gltf", folder_ / "f07.exr");
   expect_refused("render x.gltf --size 16x12 --turntable 9 -o f##.exr");
   EXPECT_EQ(run("render x.gltf --size 16x12 --turntable 9 --frames 0-6 -o f##.exr").exit_code, 0);
-  std::filesystem::create_directory(folder_ / "at3");
-  std::filesystem::create_symlink("../path.json", folder_ / "at3" / "y.png");
-  expect_refused("render x.gltf --size 16x12 --path path.json --frames 1-3 --preview at#/y.png");
+  std::filesystem::create_directory(folder_ / "at03");
+  std::filesystem::create_symlink("../path.json", folder_ / "at03" / "y.png");
+  expect_refused("render x.gltf --size 16x12 --path path.json --frames 1-3 --preview at##/y.png");
   std::filesystem::create_symlink("g1.exr", folder_ / "g2.exr");
   expect_refused("render x.gltf --size 16x12 --turntable 3 -o g#.exr");
   expect_refused("render x.gltf --size 16x12 --turntable 3 -o h#.exr --stats-json sub/../h2.exr");
+}
+
+TEST_F(OutputsTest, AFolderMayBeCalledWithAHash) {
+  const std::string cornell = scene("cornell.gltf");
+  std::filesystem::create_directory(folder_ / "C#");
+  EXPECT_EQ(run("render" + cornell + "--size 16x12 --preview 'C#/a.png'").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "C#" / "a.png"));
+  EXPECT_EQ(run("render" + cornell + "--size 16x12 --turntable 2 --preview 'C#/b#-##.png'").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "C#" / "b#-01.png"));
 }
 
 TEST_F(OutputsTest, StandardOutputIsChecked) {

@@ -1,8 +1,11 @@
 #include "core/parallel/workers.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 
@@ -45,6 +48,25 @@ TEST(Workers, CallersOnSeveralThreadsTakeTurns) {
   other.join();
   third.join();
   EXPECT_EQ(done, 3 * 2000 * 7);
+}
+
+TEST(Workers, AForkedProcessWorksAloneAndEnds) {
+  auto workers = std::make_unique<Workers>(4);
+  std::atomic<int> done{0};
+  workers->for_each(100, [&](std::size_t) { ++done; });
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(20);  // ends a process that hangs
+    workers->for_each(100, [&](std::size_t) { ++done; });
+    const bool alone = workers->count() == 1;
+    workers.reset();
+    _exit(done == 200 && alone ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  workers->for_each(100, [&](std::size_t) { ++done; });
+  EXPECT_EQ(done, 200);
 }
 
 TEST(Tiles, CoverEveryPixelOnce) {

@@ -1,4 +1,6 @@
 // What is behind the scene: one picture, whoever draws it.
+#include <fstream>
+
 #include "core/reference/reference.h"
 #include "hybrid/settings/explain.h"
 #include "hybrid/settings/resolve.h"
@@ -6,6 +8,7 @@
 #include "pinocchio/conversion.h"
 #include "pinocchio/studio.h"
 #include "tests/hybrid/plates.h"
+#include "tests/support/own_file.h"
 
 namespace pinocchio {
 namespace {
@@ -41,6 +44,25 @@ TEST(BackgroundPicture, WithACatcherAndPanesTheSameHolds) {
     EXPECT_GT(count(transparent, [](const glm::vec4& c) { return std::abs(c.a - 0.4f) < 1e-3f; }),
               std::string_view(catcher) == "off" ? 100u : 40u);
   }
+}
+
+TEST(BackgroundPicture, APngHasAlphaWhereNothingIsBehind) {
+  constexpr std::size_t kColorType = 25;  // byte of the file: 2 is RGB, 6 RGBA
+  Scene scene = plates(false);
+  const Settings settings = by({{"mode", "raytrace"}});
+  EXPECT_EQ(encode_png(drawn(scene, settings, "environment")).at(kColorType), 2);
+  EXPECT_EQ(encode_png(drawn(scene, settings, "0.25,0.5,0.75")).at(kColorType), 2);
+  EXPECT_EQ(encode_png(drawn(scene, settings, "transparent")).at(kColorType), 6);
+  scene.environment.reset();
+  const FrameResult picture = drawn(scene, settings, "environment");
+  EXPECT_EQ(encode_png(picture).at(kColorType), 6);
+  const std::filesystem::path file = own_file("shown.png");
+  write_png(file, picture, {.exposure_ev = 1.0f, .tone_map = ToneMap::neutral});
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_EQ(bytes, encode_png(picture, {.exposure_ev = 1.0f, .tone_map = ToneMap::neutral}));
+  EXPECT_NE(bytes, encode_png(picture));
+  EXPECT_THROW(write_png(own_file("none") / "shown.png", picture), EnvironmentError);
 }
 
 TEST(BackgroundPicture, PanesAreSeenThroughWithoutBeingAskedFor) {
@@ -196,7 +218,9 @@ TEST(BackgroundPicture, StudioIsTheStudiosSkyWhateverLights) {
   Scene scene = plates(false);
   const FrameResult studio = drawn(scene, by({{"mode", "raytrace"}}), "studio", 1);
   scene.environment = studio_sky();
-  const FrameResult own = drawn(scene, by({{"mode", "raytrace"}}), "environment", 1);
+  Settings without_ground = by({{"mode", "raytrace"}});
+  without_ground.shadow_catcher = ShadowCatcher{};
+  const FrameResult own = drawn(scene, without_ground, "environment", 1);
   for (const Way& way : ways()) {
     const FrameResult same_sky = drawn(plates(false), way.settings, "studio", 1);
     for (std::size_t i = 0; i < own.ids.pixels().size(); ++i)

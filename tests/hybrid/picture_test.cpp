@@ -286,6 +286,35 @@ TEST(NearPlane, HidesNothingNearTheEye) {
   }
 }
 
+// KHR_lights_punctual's window: 1 - (distance / range)^4, for lights of every size.
+TEST(Lights, FadeToNothingAtTheirRange) {
+  const auto brightness = [](float range, float radius, Light::Falloff falloff) {
+    Scene scene = plate_over_floor();
+    Light bulb = point_light({-3, 2, 3}, false);
+    bulb.falloff = falloff;
+    bulb.intensity = 4.0f;
+    bulb.range = range;
+    bulb.radius = radius;
+    scene.lights = {bulb};
+    scene.ambient_light = glm::vec3(0.0f);
+    Camera& camera = scene.cameras.front();
+    camera.eye = {-3, 8, 3.01f};
+    camera.target = {-3, 0, 3};
+    camera.fov_deg = 1.0f;
+    const FrameResult picture = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = {8, 8}});
+    return static_cast<double>(picture.color.at(4, 4).g);
+  };
+  for (const float radius : {0.0f, 0.01f}) {
+    const double free = brightness(INFINITY, radius, Light::Falloff::inverse_square);
+    EXPECT_GT(free, 0.1);
+    EXPECT_NEAR(brightness(4.0f, radius, Light::Falloff::inverse_square) / free, 1.0 - 1.0 / 16.0, 0.01);
+    EXPECT_LT(brightness(2.01f, radius, Light::Falloff::inverse_square) / free, 0.03);
+    EXPECT_EQ(brightness(1.9f, radius, Light::Falloff::inverse_square), 0.0);
+    EXPECT_EQ(brightness(2.1f, radius, Light::Falloff::none),
+              brightness(INFINITY, radius, Light::Falloff::none));
+  }
+}
+
 TEST(Lights, OfEveryKindLookTheSameOnBothSides) {
   Scene scene = plate_over_floor();
   Light sun;

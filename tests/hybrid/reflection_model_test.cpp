@@ -18,6 +18,20 @@ Material material(const glm::vec3& base, float metallic, float roughness) {
                                Shading::from_file);
 }
 
+// KHR_materials_specular: the colour is limited to what mirrors all, then weighed.
+TEST(ReflectionModel, SpecularColourIsLimitedBeforeItIsWeighed) {
+  const Material m = material_from_surface({.base_color = glm::vec3(1.0f),
+                                            .metallic = 0.0f,
+                                            .ior = 2.4f,
+                                            .specular = 0.5f,
+                                            .specular_color = {8.0f, 1.0f, 0.0f}},
+                                           Shading::from_file);
+  const float f0 = (1.4f / 3.4f) * (1.4f / 3.4f);
+  EXPECT_NEAR(m.specular.r, 0.5f, 1e-6f);
+  EXPECT_NEAR(m.specular.g, 0.5f * f0, 1e-6f);
+  EXPECT_EQ(m.specular.b, 0.0f);
+}
+
 // The scene under a sky alone, seen from the eye.
 Scene under(Image<glm::vec3> sky, Scene scene, const glm::vec3& eye) {
   scene.ambient_light = glm::vec3(0.0f);

@@ -65,15 +65,15 @@ TEST(Export, FilterSamplesAndExposureAreSaid) {
 TEST(Export, WhatIsReadBesideTheSceneIsSaid) {
   ExportedView view;
   view.environment = "a sky.hdr";
-  view.load_limit = std::uint64_t{8} << 30;
-  view.confine = true;
-  view.shading = Shading::phong;
+  view.load.limit_bytes = std::uint64_t{8} << 30;
+  view.load.confine = true;
+  view.load.shading = Shading::phong;
   view.camera.lens_radius = 0.25f;
   view.camera.focus_distance = 3.0f;
-  view.animation = "walk cycle";
-  view.variant = "red";
-  view.point_size = 0.5f;
-  view.line_width = 0.25f;
+  view.load.animation = "walk cycle";
+  view.load.variant = "red";
+  view.load.point_size = 0.5f;
+  view.load.line_width = 0.25f;
   const std::string command = render_command(view, "boat");
   for (const char* part :
        {" --environment 'a sky.hdr' ", " --load-limit 8192 ", " --confine ", " --shading phong ",

@@ -42,34 +42,40 @@ std::string settings_options(const Settings& settings) {
   return text;
 }
 
+std::string load_options(const LoadOptions& load) {
+  std::string text;
+  if (load.limit_bytes != kUsualLoadLimit) text += " --load-limit " + std::to_string(load.limit_bytes >> 20);
+  if (load.confine) text += " --confine";
+  if (load.shading != Shading::from_file)
+    text += " --shading " + std::string(name_of(kShadingNames, load.shading));
+  if (load.up_axis != UpAxis::y) text += " --up-axis " + std::string(name_of(kUpAxisNames, load.up_axis));
+  if (!load.animation.empty()) text += " --animation " + quoted(load.animation);
+  if (!load.variant.empty()) text += " --variant " + quoted(load.variant);
+  if (load.point_size > 0.0f) text += " --point-size " + shortest(load.point_size);
+  if (load.line_width > 0.0f) text += " --line-width " + shortest(load.line_width);
+  return text;
+}
+
 }  // namespace
 
 std::string render_command(const ExportedView& view, const std::string& name) {
   std::string text = "pinocchio render " + quoted(view.scene) + " --size " + std::to_string(view.size.x) +
                      "x" + std::to_string(view.size.y) + settings_options(view.settings);
-  const Camera& camera = view.camera;
+  const Camera &camera = view.camera, &usual = view.usual_camera;
   text += " --eye " + exact(camera.eye) + " --target " + exact(camera.target);
   if (camera.up != glm::vec3(0, 1, 0)) text += " --up " + exact(camera.up);
   text += " --fov " + shortest(camera.fov_deg);
-  if (camera.projection != Projection::perspective)
+  if (camera.projection != usual.projection)
     text += " --projection " + std::string(name_of(kProjectionNames, camera.projection));
   if (camera.projection == Projection::orthographic) text += " --height " + shortest(camera.height);
-  if (camera.lens_radius > 0.0f) text += " --lens-radius " + shortest(camera.lens_radius);
-  if (camera.focus_distance > 0.0f) text += " --focus " + shortest(camera.focus_distance);
+  if (camera.lens_radius != usual.lens_radius) text += " --lens-radius " + shortest(camera.lens_radius);
+  if (camera.focus_distance != usual.focus_distance) text += " --focus " + shortest(camera.focus_distance);
   for (const Light& light : view.extra_lights)
     text += " --light " + exact(light.position) + "," + shortest(light.intensity) +
             (light.casts_shadow ? ",cast" : ",nocast") +
             (light.radius > 0.0f ? "," + shortest(light.radius) : "");
   if (!view.environment.empty()) text += " --environment " + quoted(view.environment);
-  if (view.load_limit != kUsualLoadLimit) text += " --load-limit " + std::to_string(view.load_limit >> 20);
-  if (view.confine) text += " --confine";
-  if (view.shading != Shading::from_file)
-    text += " --shading " + std::string(name_of(kShadingNames, view.shading));
-  if (view.up_axis != UpAxis::y) text += " --up-axis " + std::string(name_of(kUpAxisNames, view.up_axis));
-  if (!view.animation.empty()) text += " --animation " + quoted(view.animation);
-  if (!view.variant.empty()) text += " --variant " + quoted(view.variant);
-  if (view.point_size > 0.0f) text += " --point-size " + shortest(view.point_size);
-  if (view.line_width > 0.0f) text += " --line-width " + shortest(view.line_width);
+  text += load_options(view.load);
   if (view.time_s) text += " --time " + nlohmann::json(*view.time_s).dump();
   if (view.denoised && !view.settings.denoise.given) text += " --denoise";
   if (view.samples > 1 || view.studio_light) text += " --spp " + std::to_string(view.samples);

@@ -16,6 +16,7 @@ struct ExportedView {
   std::string scene;  // file, with the edited lights
   Settings settings;  // given
   Camera camera;
+  Camera usual_camera{};            // that `render` begins with: the scene's first
   std::vector<Light> extra_lights;  // not in the file
   std::string environment{};        // file. Empty: none
   glm::ivec2 size{0, 0};            // pixels
@@ -25,13 +26,8 @@ struct ExportedView {
   bool denoised = false, studio_light = false;
   float exposure_ev = 0.0f;
   ToneMap tone_map = ToneMap::clip;
-  std::optional<double> time_s{};              // of the scene's animation
-  std::uint64_t load_limit = kUsualLoadLimit;  // bytes
-  bool confine = false;
-  Shading shading = Shading::from_file;
-  UpAxis up_axis = UpAxis::y;                  // of the scene's file
-  std::string animation{}, variant{};          // of the scene's file. Empty: all; its usual one
-  float point_size = 0.0f, line_width = 0.0f;  // scene units. 0: left out
+  std::optional<double> time_s{};  // of the scene's animation
+  LoadOptions load{};              // how the scene's files are read
 };
 
 // The command line that draws the view to name.exr and name.png. Numbers are exact.

@@ -25,22 +25,22 @@ void forget_camera_and_lights(DrawOptions& draw) {
 void SceneSource::open(const std::string& file) {
   DrawOptions draw = options_;
   draw.scene = file;
-  draw.animation.clear();  // they are another file's
-  draw.variant.clear();
+  draw.load.animation.clear();  // they are another file's
+  draw.load.variant.clear();
   forget_camera_and_lights(draw);
   load(draw);
 }
 
 void SceneSource::turn_up(UpAxis axis) {
   DrawOptions draw = options_;
-  draw.up_axis = axis;
+  draw.load.up_axis = axis;
   forget_camera_and_lights(draw);
   load(draw);
 }
 
 void SceneSource::choose_variant(const std::string& name) {
   DrawOptions draw = options_;
-  draw.variant = name;
+  draw.load.variant = name;
   load(draw);
 }
 
@@ -49,7 +49,7 @@ void SceneSource::open_unlimited() {
   model_.is_over_limit = false;
   std::optional<DrawOptions> draw = std::exchange(refused_, std::nullopt);
   if (!draw) return;
-  draw->load_limit = kNoLimit;
+  draw->load.limit_bytes = kNoLimit;
   load(*draw);
 }
 
@@ -58,7 +58,7 @@ void SceneSource::open_environment(const std::string& file) {
   if (!model_.has_scene()) return model_.messages.hint("open a scene first, then its environment");
   if (!model_.tracer) tree_settings_.reset();
   pending_.reset();
-  loader_.load_environment(file, options_.load_limit);
+  loader_.load_environment(file, options_.load.limit_bytes);
 }
 
 // The loader does one thing at a time: a tree that is being built is dropped.

@@ -10,7 +10,7 @@
 
 namespace pinocchio {
 
-// The wide tree of one pose's trees, which is built when rays that part have been so many that it pays.
+// The wide tree of one pose's trees, which is built when incoherent rays have been so many that it pays.
 // Until then it takes neither time nor memory. May be called from many threads.
 class WideOnDemand {
  public:
@@ -21,11 +21,12 @@ class WideOnDemand {
   // isa: of the packets. threads: for the build; 0: one for each core.
   WideOnDemand(std::shared_ptr<const SceneTrees> trees, Isa isa, int threads);
 
-  // Counts `rays` rays that part. Null: trace them in packets. The call that reaches the limit builds the
+  // Counts that many incoherent rays. Null: trace them in packets. The call that reaches the limit builds the
   // tree; other threads use packets meanwhile.
   [[nodiscard]] const WideTree* tree_after(std::size_t rays);
 
-  // The distance between neighbouring rays at the scene's centre from which on they part, scene units.
+  // The distance between neighbouring rays at the scene's centre from which on they are incoherent, scene
+  // units.
   [[nodiscard]] float apart() const { return apart_; }
   [[nodiscard]] const glm::vec3& center() const { return center_; }
 

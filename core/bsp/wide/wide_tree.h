@@ -29,7 +29,7 @@ struct alignas(kCacheLine) WideLeaf {
 };
 static_assert(sizeof(WideLeaf) == 6 * kCacheLine);
 
-// A tree of boxes for rays that part: a ray by itself visits a fifth of the nodes of the binary tree that
+// A tree of boxes for incoherent rays: a ray by itself visits a fifth of the nodes of the binary tree that
 // packets share. It is built over the triangles that a BspTree stores, in the same pose.
 struct WideTree {
   static constexpr int kMostDepth = 36;  // levels of nodes

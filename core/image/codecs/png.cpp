@@ -49,6 +49,10 @@ std::string encode(glm::ivec2 size, int channels, std::span<const std::byte> pix
 
 }  // namespace
 
+std::string encode_png(const Image<glm::u8vec3>& pixels) {
+  return encode(pixels.size(), 3, std::as_bytes(pixels.pixels()), {});
+}
+
 std::string encode_png(const Image<glm::u8vec4>& pixels) {
   return encode(pixels.size(), 4, std::as_bytes(pixels.pixels()), {});
 }

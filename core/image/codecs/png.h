@@ -10,6 +10,7 @@
 namespace pinocchio {
 
 // A PNG file's bytes. Throws EnvironmentError.
+[[nodiscard]] std::string encode_png(const Image<glm::u8vec3>& pixels);
 [[nodiscard]] std::string encode_png(const Image<glm::u8vec4>& pixels);
 
 // Writes the file whole or not at all. `text`, in ASCII, goes into a text chunk with the keyword "pinocchio";

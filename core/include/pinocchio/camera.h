@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "pinocchio/error.h"
 #include "pinocchio/glm_layout.h"
 
 namespace pinocchio {
@@ -53,6 +54,10 @@ struct Camera {
 
   friend bool operator==(const Camera&, const Camera&) = default;
 };
+
+// Checks what drawing relies on: eye, target and height within kFarthest (load.h), an eye that is not the
+// target, an `up` that is a direction, and a field of view in its range. The error names no file.
+[[nodiscard]] Expected<void> check_camera(const Camera& camera);
 
 // A camera's orthonormal axes, right-handed: right x up = -forward.
 struct CameraAxes {

@@ -60,7 +60,8 @@ class Environment {
 
 // Reads an EXR or Radiance (.hdr, RGBE) picture, told by its bytes. An EXR has the channels R, G and B, or Y
 // alone or with RY and BY. A cube map (attribute envmap) is converted to latitude and longitude. NaN is read
-// as 0 and infinity as the largest finite value, each with a warning.
+// as 0 and infinity as the largest finite value, each with a warning. The path "studio" is the studio's sky
+// (studio.h), whatever files there are.
 // Errors name the file. Phase "read".
 [[nodiscard]] Expected<std::shared_ptr<const Environment>> load_environment(
     const std::filesystem::path& path, Progress* progress = nullptr,

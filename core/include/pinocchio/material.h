@@ -19,9 +19,11 @@ struct Material {
   float shininess = 1.0f;    // exponent of (R.V), not of the half vector
   // glTF's reflection model (GGX): roughness squared. 0: Phong's model.
   float ggx_alpha = 0.0f;
-  float grazing = 1.0f;   // glTF's model: F90, mirrored at grazing incidence
-  glm::vec2 layer{0.0f};  // glTF's model: F0 and F90 of the dielectric layer above the matt one
-  GltfLayers layers{};    // glTF's model: above that
+  float grazing = 1.0f;  // glTF's model: F90, mirrored at grazing incidence
+  // glTF's model: F0 and F90 of the dielectric layer above the matt one, and the share of the light below it
+  // that goes through.
+  glm::vec3 layer{0.0f};
+  GltfLayers layers{};  // glTF's model: above that
   // Weight of the mirrored ray where mirrors are not sampled; with `fresnel`: at normal incidence.
   glm::vec3 reflectance{0.0f};
   // Exponent of the lobe over which samples spread the mirrored rays. Lower is rougher.

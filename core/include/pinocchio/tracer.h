@@ -84,7 +84,7 @@ class Tracer {
   [[nodiscard]] double build_end_s() const { return build_end_s_; }
 
  private:
-  // Null: packets are faster for these rays, or there have been few that part so far.
+  // Null: packets are faster for these rays, or there have been few incoherent ones so far.
   [[nodiscard]] const WideTree* wide_tree_for(const RayColumns& rays, std::size_t n) const;
 
   double build_begin_s_, build_end_s_ = 0.0;

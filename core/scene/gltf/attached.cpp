@@ -119,12 +119,6 @@ Camera at_rest(const glm::mat4& world, const Camera& camera) {
   return rest;
 }
 
-bool can_look(const Camera& camera) {
-  return camera.fov_deg > 0.0f && camera.fov_deg < 180.0f && camera.height > 0.0f &&
-         std::isfinite(camera.height) && is_finite(camera.eye) && is_finite(camera.target) &&
-         is_finite(camera.up);
-}
-
 bool can_shine(const Light& light) {
   return is_finite(light.position) && is_finite(light.direction) && is_finite(light.edge_u) &&
          is_finite(light.edge_v) && is_finite(light.intensity * light.color);

@@ -22,8 +22,7 @@ namespace pinocchio {
 [[nodiscard]] Light at_rest(const glm::mat4& world, const Light& light);
 [[nodiscard]] Camera at_rest(const glm::mat4& world, const Camera& camera);
 
-// Return whether their numbers are finite; a camera also needs a field of view and a height.
-[[nodiscard]] bool can_look(const Camera& camera);
+// Whether its numbers are finite.
 [[nodiscard]] bool can_shine(const Light& light);
 
 }  // namespace pinocchio

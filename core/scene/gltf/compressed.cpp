@@ -29,13 +29,32 @@ int add_accessor(GltfFile& file, FileBytes bytes, int component_type, int compon
   return as_int(file.accessors.size() - 1);
 }
 
+// The factor that makes numbers from 0 to 1, or -1 to 1, of the integers of a normalized accessor. Encoders
+// leave Draco's own flag for it unset.
+float factor_of(const GltfAccessor& accessor, const draco::PointAttribute& attribute) {
+  if (!accessor.normalized || attribute.normalized()) return 1.0f;
+  switch (attribute.data_type()) {
+    case draco::DT_INT8:
+      return 1.0f / 127.0f;
+    case draco::DT_UINT8:
+      return 1.0f / 255.0f;
+    case draco::DT_INT16:
+      return 1.0f / 32767.0f;
+    case draco::DT_UINT16:
+      return 1.0f / 65535.0f;
+    default:
+      return 1.0f;
+  }
+}
+
 template <int kComponents>
-FileBytes values_of(const draco::PointAttribute& attribute, std::size_t points) {
+FileBytes values_of(const draco::PointAttribute& attribute, std::size_t points, float factor) {
   FileBytes bytes(points * kComponents * sizeof(float));
   for (std::size_t i = 0; i < points; ++i) {
     float values[kComponents] = {};
     attribute.ConvertValue<float, kComponents>(attribute.mapped_index(draco::PointIndex(as_uint32(i))),
                                                values);
+    for (float& value : values) value = std::max(value * factor, factor < 1.0f ? -1.0f : value);
     std::memcpy(bytes.data() + i * sizeof values, values, sizeof values);
   }
   return bytes;
@@ -82,11 +101,13 @@ class DracoPrimitive {
       const draco::PointAttribute* attribute = id >= 0 ? mesh.GetAttributeByUniqueId(as_uint32(id)) : nullptr;
       if (!attribute || !in_range(accessor, file_.accessors))
         return file_.error(std::string(kWhose) + " lacks its attribute " + name);
-      const int components = item_of(file_.accessors, accessor).components;
+      const GltfAccessor& own = item_of(file_.accessors, accessor);
+      const int components = own.components;
       const std::size_t points = mesh.num_points();
-      FileBytes values = components == 2   ? values_of<2>(*attribute, points)
-                         : components == 3 ? values_of<3>(*attribute, points)
-                         : components == 4 ? values_of<4>(*attribute, points)
+      const float factor = factor_of(own, *attribute);
+      FileBytes values = components == 2   ? values_of<2>(*attribute, points, factor)
+                         : components == 3 ? values_of<3>(*attribute, points, factor)
+                         : components == 4 ? values_of<4>(*attribute, points, factor)
                                            : FileBytes();
       if (values.size() > 0)
         accessor = add_accessor(file_, std::move(values), kGltfFloat, components, points);

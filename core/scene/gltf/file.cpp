@@ -20,7 +20,7 @@ struct Elements {
   int component_type = 0;
 };
 
-// Writes `count` elements' numbers one after the other; integers times `scale`.
+// Writes `count` elements' numbers one after the other; integers times `scale`, and then from -1 on.
 template <class T, class Out>
 void convert_from(const Elements& from, std::size_t first, std::size_t count, std::size_t width, double scale,
                   Out* to) {
@@ -29,7 +29,7 @@ void convert_from(const Elements& from, std::size_t first, std::size_t count, st
       T value;
       std::memcpy(&value, from.first + i * from.stride + c * sizeof value, sizeof value);
       if constexpr (std::is_same_v<Out, float>)
-        *to++ = as_float(as_double(value) * scale);
+        *to++ = as_float(scale == 1.0 ? as_double(value) : std::max(as_double(value) * scale, -1.0));
       else
         *to++ = static_cast<Out>(value);
     }

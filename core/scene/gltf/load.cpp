@@ -41,7 +41,7 @@ void drop_unused_attributes(MeshData& mesh, RestPose& rest) {
 class SceneReader {
  public:
   SceneReader(const GltfFile& file, Loading& loading) : file_(file), loading_(loading) {
-    add_gltf_materials(file, mesh_, loading_.shading);
+    add_gltf_materials(file, mesh_, loading_.options.shading);
   }
 
   Expected<Scene> read() {
@@ -77,7 +77,7 @@ class SceneReader {
     if (const Expected<void> skinned = add_skins(); !skinned) return Unexpected(skinned.error());
     scene_.mesh = std::make_shared<const Mesh>(std::move(mesh_));
     Expected<std::shared_ptr<const Animation>> animation =
-        gltf_animation(file_, tree_, place_of_node_, loading_.warnings, loading_.animation);
+        gltf_animation(file_, tree_, place_of_node_, loading_.warnings, loading_.options.animation);
     if (!animation) return Unexpected(animation.error());
     scene_.animation = std::move(*animation);
     scene_.nodes = std::make_shared<const NodeTree>(std::move(tree_));
@@ -167,10 +167,8 @@ class SceneReader {
     if (type != "perspective" && type != "orthographic") {
       warn("camera '" + camera.name + "'", "is neither perspective nor orthographic and left out",
            "it cannot be chosen");
-    } else if (!can_look(camera)) {
-      warn("camera '" + camera.name + "'",
-           "has no field of view within 0 and 180 degrees, or no height, and is left out",
-           "it cannot be chosen");
+    } else if (const Expected<void> checked = check_camera(camera); !checked) {
+      warn("camera '" + camera.name + "'", "is left out, as " + checked.error().what, "it cannot be chosen");
     } else {
       scene_.cameras.push_back(camera);
     }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -62,7 +63,7 @@ class MeshPlacer {
                                 primitive.attribute("TEXCOORD_0"),
                                 primitive.attribute("TEXCOORD_1"),
                                 primitive.attribute("COLOR_0"),
-                                primitive.attribute("TANGENT"),
+                                primitive.attribute("NORMAL") < 0 ? -1 : primitive.attribute("TANGENT"),
                                 deformation_ ? deforming_accessors(primitive) : std::vector<int>()};
     const Expected<std::size_t> count = file_.count(attributes.position);
     if (!count) return Unexpected(count.error());
@@ -85,6 +86,8 @@ class MeshPlacer {
 
   // How many triangles were left out, as a vertex of theirs is nowhere.
   [[nodiscard]] std::size_t unplaced() const { return unplaced_; }
+  // How many normals, tangents, colours and texture coordinates were left out, as they are not finite.
+  [[nodiscard]] std::size_t unfit() const { return unfit_; }
   // Vertices that are nowhere, which no triangle has.
   void forget_unplaced() {
     for (std::size_t i = first_vertex_; has_unplaced_ && i < rest_.positions.size(); ++i)
@@ -233,6 +236,8 @@ class MeshPlacer {
     Expected<void> read = file_.append(accessor, to);
     if (read && to.size() != first + count)
       return file_.error("accessor " + std::to_string(accessor) + " does not hold one element a vertex");
+    if (read && item_of(file_.accessors, accessor).component_type == kGltfFloat)
+      replace_unfit(to, first, none);
     return read;
   }
 
@@ -247,13 +252,29 @@ class MeshPlacer {
       return file_.error("accessor " + std::to_string(accessor) + " does not hold one element a vertex");
     resize_large(mesh_.colors, first, glm::vec4(1.0f));
     for (const glm::vec3& c : rgb) mesh_.colors.emplace_back(c, 1.0f);
+    if (item_of(file_.accessors, accessor).component_type == kGltfFloat)
+      replace_unfit(mesh_.colors, first, glm::vec4(1.0f));
     return {};
+  }
+
+  // Puts `none` in place of values from `first` on that are not finite.
+  template <class T>
+  void replace_unfit(std::vector<T>& values, std::size_t first, const T& none) const {
+    for_each_part(values.size() - first, kPlacedAtOnce, [&](std::size_t begin, std::size_t end) {
+      std::size_t unfit = 0;
+      for (std::size_t i = first + begin; i < first + end; ++i)
+        if (!is_finite(values[i])) {
+          values[i] = none;
+          ++unfit;
+        }
+      if (unfit > 0) unfit_ += unfit;
+    });
   }
 
   void drop_void_normals(std::size_t first) {
     constexpr float kLeast = 1e-12f;  // squared: what shading takes for none
     for (std::size_t i = first; i < rest_.normals.size(); ++i) {
-      if (glm::dot(rest_.normals[i], rest_.normals[i]) > kLeast || !is_finite(rest_.normals[i])) continue;
+      if (glm::dot(rest_.normals[i], rest_.normals[i]) > kLeast) continue;
       rest_.normals[i] = glm::vec3(0.0f);
       has_void_normals_ = true;
     }
@@ -278,6 +299,7 @@ class MeshPlacer {
   std::map<Attributes, std::uint32_t> placed_;
   bool has_void_normals_ = false, is_partly_smooth_ = false, has_unplaced_ = false;
   std::size_t first_vertex_ = mesh_.positions.size(), unplaced_ = 0;
+  mutable std::atomic<std::size_t> unfit_ = 0;
 };
 
 }  // namespace
@@ -324,6 +346,8 @@ Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& wo
   if (placer.unplaced() > 0)
     warnings.add(
         {file.path.string(), "mesh " + std::to_string(mesh), kUnplaced, kNotDrawn, placer.unplaced()});
+  if (placer.unfit() > 0)
+    warnings.add({file.path.string(), "mesh " + std::to_string(mesh), kUnfit, kUnfitLost, placer.unfit()});
   if (placer.is_partly_smooth())
     warnings.add({file.path.string(), "mesh " + std::to_string(mesh), "normals of length 0 are left out",
                   "triangles there are shaded by the normals of their other corners"});

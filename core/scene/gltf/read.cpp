@@ -151,7 +151,7 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Loading& lo
   file.json = std::make_shared<const nlohmann::json>(std::move(gltf));
   if (const Expected<void> readable = check_gltf_requirements(path, *file.json); !readable)
     return Unexpected(readable.error());
-  Expected<int> variant = chosen_gltf_variant(path, *file.json, loading.variant);
+  Expected<int> variant = chosen_gltf_variant(path, *file.json, loading.options.variant);
   if (!variant) return Unexpected(variant.error());
   file.variant = *variant;
   add_lost_gltf_features(path, *file.json, file.variant, loading);

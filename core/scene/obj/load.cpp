@@ -37,7 +37,8 @@ class MtlLibraries {
 
   // The material's index; -1 and a warning: no file defines the name.
   int find(const std::string& name) {
-    if (const auto found = by_name_.find(name); found != by_name_.end()) return found->second;
+    for (const std::string& wanted : {name, std::string(without_comment(name))})
+      if (const auto found = by_name_.find(wanted); found != by_name_.end()) return found->second;
     loading_.warnings.add(
         {file_.string(), "material '" + name + "'", "materials are in no MTL file", "grey is used"});
     return -1;
@@ -82,6 +83,7 @@ class MtlLibraries {
                              "write d where Tr should make materials transparent"});
     for (MtlMaterial& m : read.materials) {
       by_name_.try_emplace(m.name, as_int(materials.size()));
+      by_name_.try_emplace(std::string(without_comment(m.name)), as_int(materials.size()));
       materials.push_back(std::move(m));
     }
   }

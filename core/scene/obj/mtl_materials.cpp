@@ -4,7 +4,9 @@
 #include <numbers>
 
 #include "core/files/input_file.h"
+#include "core/files/text_lines.h"
 #include "core/image/codecs/texture_file.h"
+#include "core/math/luminance.h"
 #include "core/scene/gltf/material_from_surface.h"
 #include "pinocchio/conversion.h"
 
@@ -72,9 +74,15 @@ void make_normals(Texture& texture, float bump) {
     }
 }
 
+void make_luminance_alpha(Texture& texture) {
+  for (glm::u8vec4& t : texture.texels.pixels())
+    t.a = static_cast<std::uint8_t>(luminance(glm::vec3(t.r, t.g, t.b)) + 0.5f);
+}
+
 // The channel that holds alpha: the requested one, else the image's alpha if it has one, else red.
 int alpha_channel(const Texture& texture, char asked) {
   constexpr std::string_view kChannels = "rgbm";
+  if (asked == 'l') return 3;  // make_luminance_alpha
   if (const std::size_t i = kChannels.find(asked); i != std::string_view::npos) return as_int(i);
   const bool has_alpha = std::any_of(texture.texels.pixels().begin(), texture.texels.pixels().end(),
                                      [](const glm::u8vec4& t) { return t.a != 255; });
@@ -90,7 +98,10 @@ MtlMaterials::Loaded MtlMaterials::load(const MtlMaterial& m, const MtlTexture& 
   for (const Loaded& known : loaded_)
     if (known.key == key) return known;
   Loaded result{std::move(key), -1, 3};
-  const std::filesystem::path path = loading_.files.named(texture.file);
+  std::filesystem::path path = loading_.files.named(texture.file);
+  if (const std::string_view bare = without_comment(texture.file);
+      bare != texture.file && !loading_.files.has(path))
+    path = loading_.files.named(std::string(bare));
   files_.push_back(path.string());
   const std::string where = "material '" + m.name + "'";
   Expected<DecodedImage> image = load_texture(path, loading_);
@@ -103,6 +114,7 @@ MtlMaterials::Loaded MtlMaterials::load(const MtlMaterial& m, const MtlTexture& 
                              "its texture " + texture.file + " is damaged: " + image->damage,
                              "part of it is missing"});
     Texture& texels = image->texture;
+    if (kind == Kind::alpha && texture.channel == 'l') make_luminance_alpha(texels);
     if (kind == Kind::alpha) result.channel = alpha_channel(texels, texture.channel);
     if (kind == Kind::bump && is_grey(texels))
       make_normals(texels, texture.bump);  // a coloured image is a normal map already

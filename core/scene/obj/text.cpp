@@ -173,6 +173,8 @@ class ObjReader {
       if (std::isfinite(values[given_])) continue;
       if (kind == kVertex && given_ < 3 && value)  // nan
         first_unplaced_ = first_unplaced_ > 0 ? first_unplaced_ : line_;
+      else if (value)
+        leave_out_unfit(kind, values);
       else if (word.empty())
         return fail(line_, std::string("a ") + kKindNames[kind] + " has too few numbers");
       else
@@ -181,6 +183,15 @@ class ObjReader {
     }
     take(values.data());
     return {};
+  }
+
+  // A number that is not finite: white, flat, or the texture's corner.
+  void leave_out_unfit(Kind kind, std::array<float, 6>& values) {
+    if (kind == kVertex)
+      values[given_] = 1.0f;
+    else
+      values.fill(0.0f);
+    lost(kind == kVertex ? "v" : kind == kNormal ? "vn" : "vt", kUnfit, kUnfitLost);
   }
 
   Expected<void> read_face(std::string_view line) {
@@ -237,6 +248,11 @@ class ObjReader {
       corner.remove_prefix(std::min(end + 1, corner.size()));
       if (word.empty() && kind != kVertex) continue;
       const std::optional<long long> index = number<long long>(word);
+      if (index == 0 && kind != kVertex) {
+        lost("f", std::string("the index 0 of a ") + kKindNames[kind] + " is left out: they count from 1",
+             kind == kNormal ? "faces are flat or smooth as without it" : "its texture has one colour there");
+        continue;
+      }
       if (!index || *index == 0 || *index < -count(kind) || *index > std::numeric_limits<int>::max())
         return fail(line_, whose_ + " names " + std::string(kKindNames[kind]) + " '" +
                                std::string(word.substr(0, 40)) + "', there are " +

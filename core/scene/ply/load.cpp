@@ -250,7 +250,7 @@ class PlyBuilder {
     }
     places_.clear();
     for (const double corner : corners_) places_.push_back(mesh_.positions[as_size(corner)]);
-    if (!std::ranges::all_of(places_, is_finite)) {
+    if (!std::ranges::all_of(places_, is_finite<3>)) {
       ++odd_faces_;
       return lost("element face", kUnplaced, kNotDrawn);
     }

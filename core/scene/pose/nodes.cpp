@@ -262,6 +262,30 @@ bool is_sound(const Node& node, const MeshData& mesh) {
   return sound;
 }
 
+// A tree with the world matrices of its nodes.
+struct WorldTree {
+  const NodeTree& tree;
+  const std::vector<glm::mat4>& world;
+};
+
+// Places the vertices of a node that moved. Where it became a mirror image, or is none any more, its
+// triangles are turned around.
+void place_node(std::size_t n, bool deforms, const WorldTree& before, const WorldTree& now, Mesh& mesh) {
+  const Node& node = now.tree.nodes[n];
+  const RestPose& rest = *now.tree.rest;
+  if (deforms) {
+    const auto d = as_size(std::ranges::find(rest.deformations, as_int(n), &Deformation::node) -
+                           rest.deformations.begin());
+    const Deformer deformer(now.tree, d, now.world);
+    deformer.place(mesh);
+    if (deformer.mirrors() != Deformer(before.tree, d, before.world).mirrors()) turn_around(node, mesh);
+  } else {
+    const Placement placement(now.world[n]);
+    place_vertices(node, placement, rest, mesh);
+    if (placement.mirrors() != Placement(before.world[n]).mirrors()) turn_around(node, mesh);
+  }
+}
+
 }  // namespace
 
 Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> tree,
@@ -289,25 +313,14 @@ Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> 
   std::atomic<bool> sound = true;
   rest.pool->for_each(nodes.size(), vertices, [&](std::size_t i) {
     const std::size_t n = nodes[i];
-    const Node& node = tree->nodes[n];
-    if (changes.deforms[n]) {
-      const auto d = as_size(std::ranges::find(rest.deformations, as_int(n), &Deformation::node) -
-                             rest.deformations.begin());
-      const Deformer deformer(*tree, d, now);
-      deformer.place(*mesh);
-      if (deformer.mirrors() != Deformer(*scene.nodes, d, before).mirrors()) turn_around(node, *mesh);
-    } else {
-      const Placement placement(now[n]);
-      place_vertices(node, placement, rest, *mesh);
-      if (placement.mirrors() != Placement(before[n]).mirrors()) turn_around(node, *mesh);
-    }
+    place_node(n, changes.deforms[n], {*scene.nodes, before}, {*tree, now}, *mesh);
     if (!pose) return;
     NodePlace& place = pose->nodes[n];
     place.number = PosePool::next_number();
     place.rigid = !changes.deforms[n];
     place.world = now[n];
     place.bounds = bounds_of(place, *mesh);
-    if (!is_sound(node, *mesh)) sound = false;
+    if (!is_sound(tree->nodes[n], *mesh)) sound = false;
   });
   result.nodes = std::move(tree);
   if (!pose) {

@@ -8,6 +8,7 @@
 #include "core/image/codecs/formats.h"
 #include "pinocchio/environment.h"
 #include "pinocchio/load.h"
+#include "pinocchio/studio.h"
 
 namespace pinocchio {
 namespace {
@@ -70,6 +71,7 @@ void warn_of_shape(const std::filesystem::path& file, const glm::ivec2& size, Wa
 Expected<std::shared_ptr<const Environment>> load_environment(const std::filesystem::path& path,
                                                               Progress* progress, std::uint64_t limit_bytes,
                                                               Warnings* warnings) {
+  if (path == "studio") return studio_sky();
   MemoryLimit limit(limit_bytes);
   Expected<Image<glm::vec3>> image = read_environment(path, progress, limit);
   if (!image) return Unexpected(image.error());

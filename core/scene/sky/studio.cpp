@@ -208,7 +208,11 @@ void add_studio_light(Scene& scene) {
 }
 
 bool has_studio_light(const Scene& scene) {
-  return scene.environment == studio_sky() && scene.lights.size() == 1 && scene.lights.front() == key_light();
+  return has_studio_sky(scene) && scene.lights.size() == 1 && scene.lights.front() == key_light();
+}
+
+bool has_studio_sky(const Scene& scene) {
+  return scene.environment == studio_sky();
 }
 
 }  // namespace pinocchio

@@ -34,13 +34,34 @@ float float_at(const char* bytes) {
   return value;
 }
 
-std::string_view next_word(std::string_view& line) {
-  const std::size_t begin = std::min(line.find_first_not_of(" \t\r\v\f"), line.size());
-  const std::size_t end = std::min(line.find_first_of(" \t\r\v\f", begin), line.size());
-  const std::string_view word = line.substr(begin, end - begin);
-  line.remove_prefix(end);
-  return word;
-}
+// The words of a text, whatever separates them.
+class Words {
+ public:
+  explicit Words(std::string_view text) : rest_(text) {}
+
+  // Empty at the end.
+  std::string_view next() {
+    std::size_t begin = 0;
+    for (; begin < rest_.size() && is_blank(rest_[begin]); ++begin)
+      line_ +=
+          rest_[begin] == '\n' || (rest_[begin] == '\r' && !rest_.substr(begin).starts_with("\r\n")) ? 1 : 0;
+    std::size_t end = begin;
+    while (end < rest_.size() && !is_blank(rest_[end])) ++end;
+    const std::string_view word = rest_.substr(begin, end - begin);
+    rest_.remove_prefix(end);
+    return word;
+  }
+  [[nodiscard]] int line() const { return line_; }  // of the last word, from 1
+  // The rest of the last word's line.
+  [[nodiscard]] std::string_view rest_of_line() const { return rest_.substr(0, rest_.find_first_of("\r\n")); }
+  void skip_line() { rest_.remove_prefix(rest_of_line().size()); }
+
+ private:
+  static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+  std::string_view rest_;
+  int line_ = 1;
+};
 
 bool is_word(std::string_view word, std::string_view wanted) {
   return std::ranges::equal(word, wanted, [](char a, char b) { return (a | 0x20) == b; });
@@ -53,16 +74,18 @@ class StlReader {
 
   // Many binary files begin with "solid" too: those whose size fits their number of triangles are binary.
   Expected<MeshData> read() {
-    const std::string_view text = bytes_.text();
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    std::string_view text = bytes_.text();
     const bool has_count = text.size() >= kBeforeTriangles;
     const std::uint32_t count = has_count ? u32_at(text.data() + kHeaderBytes) : 0;
-    std::string_view first = text.substr(0, text.find('\n'));
-    const bool says_solid = is_word(next_word(first), "solid");
+    const std::size_t in_file = text.size();
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    const bool says_solid = is_word(Words(text.substr(0, kHeaderBytes)).next(), "solid");
     const bool is_text = says_solid && text.find('\0') == std::string_view::npos;
-    const Expected<void> done = has_count && bytes_of(count) == text.size() ? binary(count)
-                                : is_text                                   ? ascii(text)
-                                : has_count                                 ? of_other_size(count)
-                                                                            : no_stl();
+    const Expected<void> done = has_count && bytes_of(count) == in_file ? binary(count)
+                                : is_text                               ? ascii(text)
+                                : has_count                             ? of_other_size(count)
+                                                                        : no_stl();
     if (!done) return Unexpected(done.error());
     mesh_.normals.assign(mesh_.positions.size(), glm::vec3(0.0f));  // flat
     mesh_.materials.emplace_back().name = "default";
@@ -113,21 +136,20 @@ class StlReader {
     return {};
   }
 
-  // facet normal x y z / outer loop / vertex x y z, three times / endloop / endfacet
+  // facet normal x y z outer loop vertex x y z, three times, endloop endfacet. A solid's name is the rest of
+  // its line, unless a facet begins there.
   Expected<void> ascii(std::string_view text) {
     begin_phase(loading_.progress, "mesh", as_double(text.size()));
     std::array<glm::vec3, 3> corners;
     std::size_t count = 0;  // of the facet's corners
-    int line = 0;
-    while (!text.empty()) {
-      const std::size_t length = std::min(text.find('\n'), text.size());
-      std::string_view rest = text.substr(0, length);
-      text.remove_prefix(std::min(length + 1, text.size()));
-      if (++line % kRowsBetweenLooks == 0) throw_if_cancelled(loading_.progress);
-      const std::string_view word = next_word(rest);
+    Words words(text);
+    std::size_t seen = 0;
+    for (std::string_view word; !(word = words.next()).empty();) {
+      if (++seen % kRowsBetweenLooks == 0) throw_if_cancelled(loading_.progress);
+      const int line = words.line();
       if (is_word(word, "vertex")) {
         if (count == 3) return error(line, "a facet has more than three vertices", "export it as triangles");
-        if (!read_point(rest, corners[count]))
+        if (!read_point(words, corners[count]))
           return error(line, "a vertex is not three numbers", "export it again");
         ++count;
       } else if (is_word(word, "endfacet")) {
@@ -136,16 +158,26 @@ class StlReader {
                        "export it again");
         add(corners);
         count = 0;
+      } else if ((is_word(word, "solid") || is_word(word, "endsolid")) && !has_facet(words.rest_of_line())) {
+        words.skip_line();
       }
     }
+    const int line = words.line();
     if (count != 0) return error(line, "ends within a facet", "is the export complete?");
     advance(loading_.progress, as_double(bytes_.size()));
     return {};
   }
 
-  static bool read_point(std::string_view& rest, glm::vec3& point) {
+  static bool has_facet(std::string_view line) {
+    Words words(line);
+    for (std::string_view word; !(word = words.next()).empty();)
+      if (is_word(word, "facet")) return true;
+    return false;
+  }
+
+  static bool read_point(Words& words, glm::vec3& point) {
     for (int axis = 0; axis < 3; ++axis) {
-      std::string_view word = next_word(rest);
+      std::string_view word = words.next();
       if (!word.empty() && word.front() == '+') word.remove_prefix(1);
       double value = 0.0;
       const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -157,7 +189,7 @@ class StlReader {
   }
 
   void add(const std::array<glm::vec3, 3>& corners) {
-    if (!std::ranges::all_of(corners, is_finite)) return lost(kUnplaced, kNotDrawn);
+    if (!std::ranges::all_of(corners, is_finite<3>)) return lost(kUnplaced, kNotDrawn);
     const auto first = as_uint32(mesh_.positions.size());
     mesh_.positions.insert(mesh_.positions.end(), corners.begin(), corners.end());
     mesh_.triangles.emplace_back(first, first + 1, first + 2);

@@ -15,10 +15,8 @@ namespace {
 // the critical angle where the bent ray is not. Thin walls of glTF's model mirror by Schlick's formula.
 inline Vec share_straight_on(const LaneSurface& s, const LaneMaterial& m) {
   const Float one(1.0f), cosine = clamp(dot(s.n_shading, s.to_viewer), 0.0f, 1.0f);
-  Float mirrored = fresnel_dielectric(cosine, m.ior);
   const Mask thin = (m.ior == one) & Mask::from_bits(m.microfacet);
-  if (thin.bits() != 0) mirrored = select(thin, largest(schlick(m.specular, m.grazing, cosine)), mirrored);
-  return m.transmittance * (one - mirrored);
+  return m.transmittance * (one - glass_mirror(m, thin, cosine, m.ior).kept);
 }
 
 // The share of light that the surfaces do not stop: beside a surface that blends, and through glass.

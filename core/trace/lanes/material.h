@@ -29,7 +29,7 @@ struct LaneMaterial : ShadingParams {
 
   LaneMaterial(const SceneArrays& scene, Int materials, Mask lanes) {
     ambient = diffuse = specular = emission = Vec(Float(0.0f));
-    shininess = ggx_alpha = grazing = layer.x = layer.y = 0.0f;
+    shininess = ggx_alpha = grazing = layer.x = layer.y = layer.z = 0.0f;
     occlusion = 1.0f;
     layers = no_layers();
     coat_normal = Vec(Float(0.0f));
@@ -77,6 +77,7 @@ struct LaneMaterial : ShadingParams {
       grazing = select(same, Float(m.grazing), grazing);
       layer.x = select(same, Float(m.layer.x), layer.x);
       layer.y = select(same, Float(m.layer.y), layer.y);
+      layer.z = select(same, Float(m.layer.z), layer.z);
     }
     if (is_layered) layers = pick_layers(same, layers_of(m.layers), layers);
   }

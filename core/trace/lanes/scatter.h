@@ -60,6 +60,27 @@ inline Float fresnel_dielectric(Float cos_in, Float eta) {
   return select(one <= sin2_out, one, Float(0.5f) * (parallel * parallel + perpendicular * perpendicular));
 }
 
+// What glass mirrors, and the share of light that its surface keeps from what is below.
+struct GlassMirror {
+  Vec mirrored;
+  Float kept;
+};
+
+// By Fresnel's equations; of glTF's model from the surface's F0 to its F90 (KHR_materials_specular, and a
+// metal's part) as they rise from ((ior - 1) / (ior + 1))^2 to 1. Thin walls mirror by Schlick's formula.
+inline GlassMirror glass_mirror(const LaneMaterial& m, Mask thin, Float cosine, Float eta) {
+  const Float zero(0.0f), one(1.0f), fresnel = fresnel_dielectric(cosine, eta);
+  if (m.microfacet == 0) return {Vec(fresnel), fresnel};
+  const Mask gltf = Mask::from_bits(m.microfacet);
+  const Float root = (m.ior - one) / (m.ior + one), f0 = root * root;
+  const Float away = one - cosine, away2 = away * away;
+  const Float rise =
+      select(thin, away2 * away2 * away, max(fresnel - f0, zero) / max(one - f0, Float(1e-6f)));
+  const auto risen = [&](Float from, Float to) { return select(gltf, from + (to - from) * rise, fresnel); };
+  return {Vec(risen(m.specular.x, m.grazing), risen(m.specular.y, m.grazing), risen(m.specular.z, m.grazing)),
+          risen(m.layer.x, m.layer.y)};
+}
+
 inline void put(const Vec& v, float* const (&columns)[3], std::size_t i) {
   v.x.store(columns[0] + i);
   v.y.store(columns[1] + i);
@@ -128,8 +149,8 @@ inline void go_straight_on(const LaneSurface& s, const LaneMaterial& m, const Ve
          bounce.options->throughput_cutoff, *bounce.straight, media ? &media->here : nullptr, s.density);
 }
 
-// Glass: sharp, or about the lobe's facets where it is rough. An infinitely thin wall (ior 1) mirrors by
-// Schlick's formula where lobes are sampled, and lets light pass without bending it.
+// Glass: sharp, or about the lobe's facets where it is rough. An infinitely thin wall of glTF's model (ior 1)
+// mirrors by Schlick's formula, and lets light pass without bending it.
 template <bool kSampled>
 [[gnu::noinline]] void scatter_glass(const LaneSurface& s, const LaneMaterial& m, const Vec& own,
                                      const LaneLobe& lobe, const SampledPixel* sampling, Int pixel,
@@ -138,14 +159,14 @@ template <bool kSampled>
   const float least = bounce.options->throughput_cutoff;
   const Float eta = select(s.leaving, one / m.ior, m.ior);
   Float cos_in = clamp(dot(s.n_shading, s.to_viewer), 0.0f, 1.0f), left = one;
-  Vec through = refracted(s, eta), direction = mirrored(s), mirror_share(zero);
-  Mask mirrors = lanes, thin = Mask::from_bits(0);
+  Vec through = refracted(s, eta), direction = mirrored(s);
+  Mask mirrors = lanes;
+  const Mask thin = lanes & Mask::from_bits(m.microfacet) & (m.ior == one);
   if constexpr (kSampled) {
     if ((m.glossy & lanes.bits()) != 0 && bounce.options->glossy == Glossy::sampled)
       direction = spread(s, direction, m.gloss,
                          sample_2d(*sampling, bounce.dimension + shared::kMirrorDimension), mirrors);
     const Mask rough = lobe.lanes & (Float(shared::kLeastAlpha) < m.ggx_alpha);
-    thin = lobe.lanes & (m.ior == one);
     if (rough.bits() != 0) {
       cos_in = select(rough, clamp(dot(lobe.facet, s.to_viewer), 0.0f, 1.0f), cos_in);
       const Vec passed = lobe.direction - s.n_shading * (two * dot(s.n_shading, lobe.direction));
@@ -156,15 +177,13 @@ template <bool kSampled>
     }
   }
   // Where the two normals disagree there may be no way through although Fresnel has a share for it.
-  const Float share = select(through == Vec(zero), one, fresnel_dielectric(cos_in, eta));
-  mirror_share = Vec(share);
-  const Mask thin_wall = thin & (through != Vec(zero));
-  if (thin_wall.bits() != 0)
-    mirror_share = select(thin_wall, schlick(m.specular, m.grazing, cos_in), mirror_share);
+  const Mask all = through == Vec(zero);
+  const GlassMirror mirror = glass_mirror(m, thin, cos_in, eta);
+  const Vec mirror_share = select(all, Vec(one), mirror.mirrored);
   // Rays through glass find what shadow rays do only where these pass glass.
   const Float found_through_glass = bounce.options->glass_shadows == GlassShadows::tinted ? s.density : zero;
-  follow(s, through, own * ((one - largest(mirror_share)) * left) * m.transmittance, pixel, lanes, least,
-         *bounce.refracted, media ? &media->beyond : nullptr, found_through_glass);
+  follow(s, through, own * (select(all, zero, one - mirror.kept) * left) * m.transmittance, pixel, lanes,
+         least, *bounce.refracted, media ? &media->beyond : nullptr, found_through_glass);
   follow(s, direction, own * mirror_share * left, pixel, mirrors, least, *bounce.mirrored,
          media ? &media->here : nullptr);
 }
@@ -176,7 +195,6 @@ inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& thro
   const Mask glass = lanes & Mask::from_bits(m.transmits),
              opaque =
                  lanes & Mask::from_bits(m.reflects & ~m.transmits & ~(bounce.lobes ? m.microfacet : 0u));
-  if ((m.blends & lanes.bits()) != 0) go_straight_on(s, m, throughput, pixel, lanes, bounce, media);
   const Vec own = m.blends != 0 ? throughput * m.alpha : throughput;
   const Int* const medium = media ? &media->here : nullptr;
   if (opaque.bits() != 0) {

@@ -170,6 +170,41 @@ inline void fetch_corners(const SceneArrays& scene, const RayQueue& rays, std::s
   });
 }
 
+// The widths of the rays' footprints where the rays from i on start, and where they end after `way`.
+inline Float width_at_start(const Bounce& bounce, const RayQueue& rays, std::size_t i) {
+  if (bounce.footprint->angle <= 0.0f) return Float(0.0f);
+  return bounce.visible ? Float(bounce.footprint->start_width) : Float::load(rays.width + i);
+}
+inline Float width_at_end(const Bounce& bounce, Float start, const Vec& way) {
+  if (bounce.footprint->angle <= 0.0f) return Float(0.0f);
+  return start + Float(bounce.footprint->angle) * sqrt(dot(way, way));
+}
+
+// Of the rays' directions, as add_environment counts them.
+inline Float density_of(const Bounce& bounce, const RayQueue& rays, std::size_t i) {
+  if (bounce.of_matt) return Float(-1.0f);
+  return rays.density ? Float::load(rays.density + i) : Float(0.0f);
+}
+
+// The material as the viewer sees it.
+inline void view_microfacets(LaneSurface& s, LaneMaterial& m) {
+  turn_normals_to_viewer(s, m);
+  if (m.layered != 0)
+    static_cast<ShadingParams&>(m) = viewed_from(s.to_viewer, s.n_shading, m);
+  else
+    m.diffuse = viewed_diffuse(s.to_viewer, s.n_shading, m);
+}
+
+inline void add_prefiltered_sky(const Bounce& bounce, const LaneSurface& s, const LaneMaterial& m,
+                                const Vec& own, Int pixel, Mask lanes) {
+  const SkyLight sky =
+      light_of_sky(*bounce.prefiltered, s, m, bounce.mirrored != nullptr, bounce.lobes, lanes);
+  if (bounce.options->sky_occlusion > 0)
+    hide_sky(bounce, s, sky, own, pixel, lanes);
+  else
+    add_light(own * (sky.matt + sky.mirrored), pixel, lanes, bounce.traced);
+}
+
 // kSampled: some light has a size, some mirror is rough, or there is light from all around. Other scenes pay
 // nothing for it.
 template <bool kSampled>
@@ -196,17 +231,10 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
                    reads_material || bounce.scene.maps ? lanes : Mask::from_bits(0));
     if (m.layered != 0) m.coat_normal = s.n_shading;
     s.n_vertices = s.n_shading;
-    s.width = Float(0.0f);
-    if (bounce.footprint->angle > 0.0f) {
-      const Float before =
-          bounce.visible ? Float(bounce.footprint->start_width) : Float::load(rays.width + i);
-      const Vec way = s.p_world - origin;
-      s.width = before + Float(bounce.footprint->angle) * sqrt(dot(way, way));
-      if (reads_maps && m.mapped != 0)
-        apply_maps(bounce, corners, triangle, origin, direction, before, wanted, s, m);
-    } else if (reads_maps && m.mapped != 0) {
-      apply_maps(bounce, corners, triangle, origin, direction, s.width, wanted, s, m);
-    }
+    const Float start_width = width_at_start(bounce, rays, i);
+    s.width = width_at_end(bounce, start_width, s.p_world - origin);
+    if (reads_maps && m.mapped != 0)
+      apply_maps(bounce, corners, triangle, origin, direction, start_width, wanted, s, m);
     Vec throughput = bounce.visible ? Vec(Float(1.0f)) : Vec::load(rays.light, i);
     std::optional<LaneMedia> surrounding;
     if (bounce.attenuates) {
@@ -217,8 +245,7 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
       throughput = throughput * attenuation(bounce, surrounding->here, sqrt(dot(way, way)), lanes);
       s.medium = surrounding->here;
     }
-    if (bounce.tints)
-      s.density = bounce.of_matt ? Float(-1.0f) : rays.density ? Float::load(rays.density + i) : Float(0.0f);
+    if (bounce.tints) s.density = density_of(bounce, rays, i);
     const LaneMedia* const media = surrounding ? &*surrounding : nullptr;
     const Vec own = m.blends != 0 ? throughput * m.alpha : throughput;
     std::optional<SampledPixel> sampling;
@@ -227,11 +254,7 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     const SampledPixel* const samples = kSampled ? &*sampling : nullptr;
     LaneLobe lobe;
     if (m.microfacet != 0) {
-      turn_normals_to_viewer(s, m);
-      if (m.layered != 0)
-        static_cast<ShadingParams&>(m) = viewed_from(s.to_viewer, s.n_shading, m);
-      else
-        m.diffuse = viewed_diffuse(s.to_viewer, s.n_shading, m);
+      view_microfacets(s, m);
       if constexpr (kSampled)
         if (bounce.lobes) lobe = sample_lobe(s, m, own, *samples, lanes, bounce);
     }
@@ -243,20 +266,15 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
       }
     const Vec certain = light_points<kSampled>(bounce, corners, s, m, own, lobe, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
-    if (bounce.prefiltered) {
-      const SkyLight sky =
-          light_of_sky(*bounce.prefiltered, s, m, bounce.mirrored != nullptr, bounce.lobes, lanes);
-      if (bounce.options->sky_occlusion > 0)
-        hide_sky(bounce, s, sky, own, pixel, lanes);
-      else
-        add_light(own * (sky.matt + sky.mirrored), rays.pixel + i, lanes, bounce.traced);
-    }
+    if (bounce.prefiltered) add_prefiltered_sky(bounce, s, m, own, pixel, lanes);
     if constexpr (kSampled)
       if (lobe.lanes.bits() != 0) {
         const Int of_lobe = lobe_pixel(bounce, lobe, pixel);
         light_along_lobe(bounce, s, lobe, own, select(lobe.rough, lamp_pixel(bounce, pixel), pixel));
         if (bounce.environment && !bounce.mirrored) sky_along_lobe(bounce, s, lobe, own, of_lobe);
       }
+    if (bounce.straight && (m.blends & lanes.bits()) != 0)
+      go_straight_on(s, m, throughput, pixel, lanes, bounce, media);
     if (bounce.mirrored) scatter<kSampled>(s, m, throughput, lobe, samples, pixel, lanes, bounce, media);
     if constexpr (kSampled)
       if (bounce.diffuse)

@@ -48,19 +48,19 @@ struct Grid {
 
 }  // namespace
 
-bool rays_diverge(const RayColumns& rays, std::size_t n) {
+bool sorting_pays(const RayColumns& rays, std::size_t n) {
   constexpr std::size_t kSamples = 32;
-  constexpr std::size_t kMost = kSamples * 3 / 10;  // pairs of neighbours that diverge
+  constexpr std::size_t kMost = kSamples * 3 / 10;  // pairs of neighbours with other keys
   const std::size_t step = std::max<std::size_t>(n / kSamples, 2);
   const Grid grid(rays, n, step);
-  std::size_t diverging = 0;
+  std::size_t others = 0;
   for (std::size_t i = 0; i + 1 < n; i += step) {
     bool apart = octant_of(rays, i) != octant_of(rays, i + 1);
     for (int axis = 0; axis < 3 && !apart; ++axis)
       apart = std::abs(rays.origin[axis][i + 1] - rays.origin[axis][i]) * grid.scale[axis] > 1.0f;
-    diverging += apart ? 1 : 0;
+    others += apart ? 1 : 0;
   }
-  return diverging > kMost;
+  return others > kMost;
 }
 
 void RaySorter::find_order(const RayColumns& rays, std::size_t n) {

@@ -11,8 +11,9 @@ namespace pinocchio {
 // Fewer rays are not worth sorting.
 inline constexpr std::size_t kLeastSorted = 256;
 
-// Whether neighbouring rays diverge, so that packets would not stay together; judged by a sample.
-[[nodiscard]] bool rays_diverge(const RayColumns& rays, std::size_t n);
+// Whether neighbouring rays mostly have other keys (RaySorter), so that sorting brings others together.
+// Judged by a sample of the rays.
+[[nodiscard]] bool sorting_pays(const RayColumns& rays, std::size_t n);
 
 // Sorts rays so that neighbours go together: by the octant of their direction, then along a Z curve
 // through a grid of their origins. One counting pass (Garanzha and Loop 2010 sort by the same key). A ray's

@@ -26,6 +26,10 @@ namespace shared {
   return kThroughputCutoff / as_float(lights > 1 ? lights : 1);
 }
 
+// Behind the last bounce, rays still go straight on through so many surfaces that blend: hair and leaves are
+// many layers.
+inline constexpr int kStraightBeyond = 64;
+
 // How rays are followed and points shaded. Everything that traces or shades reads this one value: the tile
 // pass, batches of pictures, the bounce step, the GPU's passes and the reference.
 struct TraceOptions {

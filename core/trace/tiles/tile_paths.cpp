@@ -29,7 +29,7 @@ void TileTracer::follow_diffuse(int bounce_count) {
   next_diffuse_.make_room(0, extra_columns());
   make_room(diffuse_.size, rays_);
   Bounce step = plan_->further;
-  step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
+  step.mirrored = step.straight = plan_->out.depth > 0 ? rays_.data() : nullptr;
   step.diffuse = bounce_count < plan_->out.indirect ? &next_diffuse_ : nullptr;
   step.of_matt = true;
   find_hits(diffuse_, generation);
@@ -38,9 +38,10 @@ void TileTracer::follow_diffuse(int bounce_count) {
   light_points(step, generation, {&diffuse_, 1}, plan_->further_lights, reflected_.data());
 }
 
-// Traces generation by generation: all rays of one before the next.
+// Traces generation by generation: all rays of one before the next. The last generations only go straight on.
 void TileTracer::follow_mirrors(int bounce_count) {
-  for (int step_count = 1; step_count <= plan_->out.depth; ++step_count) {
+  const int most = plan_->out.depth > 0 ? plan_->out.depth + kStraightBeyond : 0;
+  for (int step_count = 1; step_count <= most; ++step_count) {
     const int generation = bounce_count * (plan_->out.depth + 1) + step_count;
     const std::size_t mirrored = rays_[kMirrored].size,
                       through =
@@ -52,6 +53,7 @@ void TileTracer::follow_mirrors(int bounce_count) {
     make_room(rays, next_);
     Bounce step = plan_->further;
     step.mirrored = step_count < plan_->out.depth ? next_.data() : nullptr;
+    step.straight = step_count < most ? next_.data() : nullptr;
     step.diffuse = bounce_count < plan_->out.indirect ? &next_diffuse_ : nullptr;
     if (bounce_count == 0 && plan_->beyond) {
       step.sampled = 2 * kSampledPixels;

@@ -139,46 +139,63 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       most_sized(most_of(further_lights,
                          [](const BounceLight& light) { return light.slot >= 0 && light.has_size; })) {
   assert(o.mask_bits == 0 || o.mask_bits >= as_int(casting_lights(j.scene).size()));
-  const Backdrop behind = backdrop_of(j.scene, j.options.background, j.options.background_blur);
+  plan_background();
+  plan_further();
+  plan_sky();
+  plan_visible();
+  set_view(j.view, j.model);
+}
+
+void TilePlan::plan_background() {
+  const TraceOptions& o = job.options;
+  const Backdrop behind = backdrop_of(job.scene, o.background, o.background_blur);
   behind_scene = behind.picture;
   if (behind_scene) backdrop.emplace(*behind_scene, behind.rotation_deg, behind.strength);
-  if (j.options.catcher_height && (o.color || o.caught_in_reflection))
-    catcher.emplace(j.scene.mesh->bounds(), *j.options.catcher_height);
-  straight_apart = blends && (passed_backs.any() || o.coverage || catcher ||
-                              j.options.background.kind != Background::Kind::environment ||
-                              j.options.background_blur > 0.0f);
-  further.scene = SceneArrays::of(*job.scene.mesh, maps);
+  if (o.catcher_height && (out.color || out.caught_in_reflection))
+    catcher.emplace(job.scene.mesh->bounds(), *o.catcher_height);
+  straight_apart = blends && (passed_backs.any() || out.coverage || catcher ||
+                              o.background.kind != Background::Kind::environment || o.background_blur > 0.0f);
+}
+
+void TilePlan::plan_further() {
+  const Mesh& mesh = *job.scene.mesh;
+  further.scene = SceneArrays::of(mesh, maps);
   further.offset = job.tracer.offset();
   further.options = &job.options;
   further.footprint = &further_footprint;
   further = lit_by(further_lights.front(), further);
   further.ambient_light = job.scene.ambient_light;
   further.adds_ambient = further.adds_light = true;
-  const bool microfacets = std::ranges::any_of(job.scene.mesh->materials, &Material::is_microfacet);
-  const bool sampled_lobes = job.options.glossy == Glossy::sampled;
   further.samples =
       takes_samples(job.scene, job.options.environment_light, job.options.glossy) || out.indirect > 0;
-  further.attenuates = std::ranges::any_of(job.scene.mesh->materials, &Material::attenuates);
+  further.attenuates = std::ranges::any_of(mesh.materials, &Material::attenuates);
   further.tints = tints;
   further.scale = as_uint32(out.scale);
+  further.lobes = further.samples && job.options.glossy == Glossy::sampled &&
+                  std::ranges::any_of(mesh.materials, &Material::is_microfacet) &&
+                  (out.reflection || out.color || out.added || out.sampled);
+  if (out.sampled && out.beyond && out.depth > 0 &&
+      (blends || std::ranges::any_of(mesh.materials,
+                                     [&](const Material& m) { return shows_beyond(m, further.lobes); })))
+    beyond = out.beyond;
+}
+
+void TilePlan::plan_sky() {
   if (job.scene.environment) environment.emplace(job.scene);
-  if (environment && environment->shines && o.environment_light) {
+  if (environment && environment->shines && out.environment_light) {
     const bool sampled = job.options.environment_light == EnvironmentMethod::sampled;
     if (!sampled || out.sampled) environment->prefiltered = prefiltered(job.scene.environment);
     (sampled ? further.environment : further.prefiltered) = &*environment;
   }
   if (catcher && further.environment) {
-    sky_on_ground = pinocchio::sky_on_ground(j.scene.environment);
+    sky_on_ground = pinocchio::sky_on_ground(job.scene.environment);
     ground_sky = *environment;
     ground_sky->shares = sky_on_ground->shares();
     ground_sky->shines = !sky_on_ground->is_black();
   }
-  further.lobes =
-      further.samples && sampled_lobes && microfacets && (o.reflection || o.color || o.added || o.sampled);
-  if (o.sampled && o.beyond && o.depth > 0 &&
-      (blends || std::ranges::any_of(job.scene.mesh->materials,
-                                     [&](const Material& m) { return shows_beyond(m, further.lobes); })))
-    beyond = o.beyond;
+}
+
+void TilePlan::plan_visible() {
   shadows = further;
   shadows.footprint = &no_footprint;
   visible = further;
@@ -189,7 +206,6 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   visible_lights = visible_groups(further_lights, out, visible.adds_ambient);
   lights_in_reflection = std::ranges::any_of(visible_lights, &LightGroup::in_reflection);
   visible = lit_by(visible_lights.front(), visible);
-  set_view(j.view, j.model);
 }
 
 }  // namespace pinocchio

@@ -61,6 +61,13 @@ struct TilePlan {
   std::optional<EnvironmentLight> ground_sky;             // the environment, sampled for the catcher's plane
   Bounce visible, further;  // the step of the camera's rays, and of the rays that they spawn
   Bounce shadows;           // of shadow rays that go on through glass: textures are not averaged
+
+ private:
+  // In this order: what is behind the scene; the step of spawned rays; its environment; the other steps.
+  void plan_background();
+  void plan_further();
+  void plan_sky();
+  void plan_visible();
 };
 
 }  // namespace pinocchio

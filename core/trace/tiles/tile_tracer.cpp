@@ -208,8 +208,9 @@ void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Gener
   if (step.mirrored) {
     step.mirrored = &next[kMirrored];
     step.refracted = &next[kRefracted];
-    step.straight = &next[of_camera && plan_->straight_apart ? kStraightFromCamera : kStraight];
   }
+  if (step.straight)
+    step.straight = &next[of_camera && plan_->straight_apart ? kStraightFromCamera : kStraight];
   plan_->job.tracer.steps().bounce(step, rays);
 }
 
@@ -223,7 +224,7 @@ void TileTracer::light_visible() {
   make_room(seen_.size, rays_);
   Bounce step = plan_->visible;
   if (plan_->model) step.footprint = &seen_footprint_;
-  step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
+  step.mirrored = step.straight = plan_->out.depth > 0 ? rays_.data() : nullptr;
   step.diffuse = plan_->out.indirect > 0 ? &next_diffuse_ : nullptr;
   if (!step.mirrored && !step.diffuse && step.light_count == 0 && plan_->visible_lights.size() == 1 &&
       !step.adds_ambient && !step.environment && !step.prefiltered)

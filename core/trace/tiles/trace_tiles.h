@@ -67,7 +67,7 @@ struct TileOutputs {
   MaskImage* mask = nullptr;
 
   // Mirrored plus refracted light of every sample, linear, without the direct light of the visible point;
-  // `depth` generations at most.
+  // `depth` generations at most, and kStraightBeyond more of rays that only go straight on.
   int depth = 0;
   Image<glm::vec3>* reflection = nullptr;
   // For each tile (TileGrid's) of `reflection`, 1 if it is black, else 0. Kept beside the image from frame to

@@ -19,6 +19,7 @@
 #include "pinocchio/scene.h"
 #include "pinocchio/settings.h"
 #include "pinocchio/surface_images.h"
+#include "pinocchio/tone_map.h"
 #include "pinocchio/view.h"
 
 namespace pinocchio {
@@ -146,5 +147,15 @@ void write_exr(const std::filesystem::path& file, const FrameResult& frame, cons
 // The header that write_exr would write, and its channels without values: to check whether a file has this
 // frame.
 [[nodiscard]] ExrFile exr_header(const FrameResult& frame, const ExrOptions& options = {});
+
+struct PngOptions {
+  float exposure_ev = 0.0f;  // stops brighter
+  ToneMap tone_map = ToneMap::clip;
+};
+// The colour as a screen shows it, as a PNG file: sRGB, 8 bits. Where neither an environment nor a colour is
+// behind the scene, with alpha, which is not multiplied into the colour. Throws EnvironmentError.
+[[nodiscard]] std::string encode_png(const FrameResult& frame, const PngOptions& options = {});
+// Writes it whole or not at all. Throws EnvironmentError where it cannot be written.
+void write_png(const std::filesystem::path& file, const FrameResult& frame, const PngOptions& options = {});
 
 }  // namespace pinocchio

@@ -23,11 +23,9 @@ float reach_from(const glm::vec3& eye) {
 
 Camera camera_of(const glm::vec3& eye, const glm::vec3& target, const glm::vec3& up, float fov,
                  std::string name) {
-  if (eye == target) throw Error("the camera's eye is its target; move one of them");
-  if (!(fov > 0.0f && fov < 180.0f))
-    throw Error("fov is " + std::string(nb::str(nb::float_(fov)).c_str()) +
-                "; it must be between 0 and 180 degrees");
-  return {std::move(name), eye, target, up, fov};
+  Camera camera{std::move(name), eye, target, up, fov};
+  if (const Expected<void> checked = check_camera(camera); !checked) throw Error(checked.error().message());
+  return camera;
 }
 
 // A rotation and a place: a scale, a shear or a mirror would be lost without a word.
@@ -43,8 +41,6 @@ void check_rigid(const glm::mat4& m) {
     throw Error("pose shears: its first three columns are not at right angles to each other");
   if (glm::determinant(axes) < 0.0f)
     throw Error("pose mirrors: the determinant of its rotation is -1, not 1");
-  if (m[0][3] != 0.0f || m[1][3] != 0.0f || m[2][3] != 0.0f || m[3][3] != 1.0f)
-    throw Error("pose is no camera-to-world matrix: its last row is not (0, 0, 0, 1)");
 }
 
 // A camera-to-world matrix. OpenCV's camera looks along +z, y down; OpenGL's along -z, y up.

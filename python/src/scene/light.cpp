@@ -24,6 +24,12 @@ Light::Falloff falloff_of(const std::string& falloff) {
   return falloff == "none" ? Light::Falloff::none : Light::Falloff::inverse_square;
 }
 
+float checked_range(float range) {
+  if (!(range > 0.0f))
+    throw Error("range is " + shown(range) + "; it is above 0, and inf for light without end");
+  return range;
+}
+
 Light light_of(const std::optional<Three>& position, const std::optional<Three>& direction,
                const Three& color, float intensity, const std::string& falloff, float range, float inner_cone,
                float outer_cone, bool casts_shadow, const std::string& name, float radius, float angle) {
@@ -38,11 +44,13 @@ Light light_of(const std::optional<Three>& position, const std::optional<Three>&
   light.kind = kind->kind;
   if (position) light.position = position->read("position");
   if (direction) light.direction = unit(*direction);
-  light.color = color.read("color");
+  light.color = color.read_color("color");
   light.intensity = number_within(intensity, "intensity", 0.0, kLargest);
   light.falloff = falloff_of(falloff);
-  light.range = range;
+  light.range = checked_range(range);
   if (kind->has_cone) {
+    (void)number_within(outer_cone, "outer_cone", 0.0, 90.0);
+    (void)number_within(inner_cone, "inner_cone", 0.0, outer_cone);
     light.cos_inner = std::cos(glm::radians(inner_cone));
     light.cos_outer = std::cos(glm::radians(outer_cone));
   }
@@ -79,7 +87,9 @@ void bind_light(nb::module_& module) {
           "radius: of the shining sphere, in scene units. angle: the diameter of a sun's disc, in degrees. "
           "With either,\n"
           "several samples (spp) give soft shadows.\n"
-          "Raises Error if there is neither position nor direction, or if falloff is another word.")
+          "Raises Error if there is neither position nor direction, falloff is another word, or a number is "
+          "not in "
+          "its range.")
       .def_prop_ro(
           "kind", [](const Light& light) { return kind_of(light).name; },
           "'point', 'directional', 'spot' or 'rectangle'.")
@@ -92,7 +102,16 @@ void bind_light(nb::module_& module) {
           "falloff",
           [](const Light& l) { return l.falloff == Light::Falloff::none ? "none" : "inverse_square"; },
           [](Light& l, const std::string& falloff) { l.falloff = falloff_of(falloff); })
-      .def_rw("range", &Light::range, "In scene units; no light reaches beyond.")
+      .def_prop_rw(
+          "range", [](const Light& l) { return l.range; },
+          [](Light& l, float range) { l.range = checked_range(range); },
+          "In scene units; no light reaches beyond.")
+      .def_prop_ro(
+          "inner_cone", [](const Light& l) { return glm::degrees(std::acos(l.cos_inner)); },
+          "Of a spot light, in degrees from its direction.")
+      .def_prop_ro(
+          "outer_cone", [](const Light& l) { return glm::degrees(std::acos(l.cos_outer)); },
+          "Of a spot light, in degrees from its direction.")
       .def("__repr__",
            [](const Light& l) {
              const LightKind& kind = kind_of(l);
@@ -116,7 +135,7 @@ void bind_light(nb::module_& module) {
   def_three(
       bound, "position", [](Light& l) -> glm::vec3& { return l.position; }, "In world space, scene units.");
   def_three(
-      bound, "color", [](Light& l) -> glm::vec3& { return l.color; }, "Linear RGB.");
+      bound, "color", [](Light& l) -> glm::vec3& { return l.color; }, "Linear RGB.", &Three::read_color);
 }
 
 }  // namespace pinocchio::python

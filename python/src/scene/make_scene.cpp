@@ -2,26 +2,51 @@
 
 #include <pinocchio/load.h>
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <tuple>
+#include <utility>
 
 #include "pinocchio/conversion.h"
 
 namespace pinocchio::python {
 namespace {
 
-// Makes a material for each different colour of the triangles.
+// Makes a material for each different colour and material of the triangles.
 void color_triangles(const std::vector<glm::vec3>& colors, MeshData& mesh) {
-  std::map<std::array<float, 3>, std::uint32_t> known;
-  const std::vector<Material> given = mesh.materials;
+  using Key = std::tuple<std::uint32_t, float, float, float>;
+  std::map<Key, std::uint32_t> known;
+  const std::vector<Material> given = std::exchange(mesh.materials, {});
   for (std::size_t t = 0; t < colors.size(); ++t) {
+    std::uint32_t& material = mesh.triangle_materials[t];
+    if (material >= given.size())
+      throw Error("triangle_materials holds " + std::to_string(material) + "; there are " +
+                  std::to_string(given.size()) + " materials");
     const glm::vec3& c = colors[t];
-    const auto [at, is_new] = known.try_emplace({c.x, c.y, c.z}, as_uint32(known.size()));
-    mesh.triangle_materials[t] = at->second;
+    const auto [at, is_new] = known.try_emplace({material, c.x, c.y, c.z}, as_uint32(known.size()));
+    if (is_new) {
+      mesh.materials.push_back(given[material]);
+      mesh.materials.back().diffuse *= c;
+      mesh.materials.back().ambient *= c;
+    }
+    material = at->second;
   }
-  mesh.materials.assign(known.size(), given.front());
-  for (const auto& [color, index] : known)
-    mesh.materials[index].ambient = mesh.materials[index].diffuse = {color[0], color[1], color[2]};
+}
+
+// Colours that are finite, and no bytes.
+std::vector<glm::vec3> colors_of(const Floats3& argument) {
+  const auto array = argument.read("colors");
+  const float* const begin = array.data();
+  const float* const end = begin + array.size();
+  const auto* const wrong =
+      std::find_if(begin, end, [](float c) { return !(c >= 0.0f && std::isfinite(c)); });
+  if (wrong != end) throw Error("colors holds " + shown(*wrong) + "; it needs finite numbers from 0 on");
+  if (nb::cast<std::string>(
+          nb::module_::import_("numpy").attr("asarray")(argument.source).attr("dtype").attr("kind")) != "f" &&
+      std::find_if(begin, end, [](float c) { return c > 1.0f; }) != end)
+    throw Error("colors holds whole numbers above 1; it is linear light, of which 1 is white");
+  return copied<glm::vec3>(array);
 }
 
 void add_materials(const std::vector<TexturedMaterial>& materials, MeshData& mesh) {
@@ -41,11 +66,22 @@ void check_rows(std::size_t rows, std::size_t wanted, const char* what, const ch
                 ", there are " + std::to_string(wanted));
 }
 
+template <class Array>
+void check_finite(const Array& array, const char* name) {
+  const float* const end = array.data() + array.size();
+  const float* const wrong = std::find_if(array.data(), end, [](float v) { return !std::isfinite(v); });
+  if (wrong == end) return;
+  const auto row = as_size(wrong - array.data()) / array.shape(1);
+  throw Error(std::string(name) + " holds " + shown(*wrong) + " in row " + std::to_string(row) +
+              "; it needs finite numbers");
+}
+
 // The rows of an array that has one for each vertex or triangle.
 template <class To, class T, int... N>
 std::vector<To> rows_of(const Like<T, N...>& argument, const char* name, std::size_t wanted, const char* of) {
   const auto array = argument.read(name);
   check_rows(array.shape(0), wanted, name, of);
+  if constexpr (std::is_same_v<T, float>) check_finite(array, name);
   return copied<To>(array);
 }
 
@@ -56,7 +92,9 @@ Scene scene_of(const Floats3& vertices, const Words3& triangles, const std::opti
                const std::vector<TexturedMaterial>& materials, const std::optional<Words>& triangle_materials,
                const Three& ambient) {
   MeshData mesh;
-  mesh.positions = copied<glm::vec3>(vertices.read("vertices"));
+  const Floats3::Array places = vertices.read("vertices");
+  check_finite(places, "vertices");
+  mesh.positions = copied<glm::vec3>(places);
   mesh.triangles = copied<glm::uvec3>(triangles.read("triangles"));
   const std::size_t n = mesh.positions.size();
   mesh.normals =
@@ -67,10 +105,12 @@ Scene scene_of(const Floats3& vertices, const Words3& triangles, const std::opti
                                                          mesh.triangles.size(), "triangle")
                                 : std::vector<std::uint32_t>(mesh.triangles.size(), 0u);
   add_materials(materials, mesh);
+  if (colors && materials.empty())
+    mesh.materials.front().diffuse = mesh.materials.front().ambient = glm::vec3(1.0f);
   if (!mesh.textures.empty() && mesh.texcoords.empty())
     throw Error("a material has a texture, but the scene has no uvs; give one (u, v) for each vertex");
   if (colors) {
-    const std::vector<glm::vec3> given = copied<glm::vec3>(colors->read("colors"));
+    const std::vector<glm::vec3> given = colors_of(*colors);
     if (given.size() == mesh.positions.size()) {
       for (const glm::vec3& color : given) mesh.colors.emplace_back(color, 1.0f);
     } else {

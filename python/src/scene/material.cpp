@@ -7,6 +7,8 @@
 namespace pinocchio::python {
 namespace {
 
+constexpr double kMost = 1e6, kLeastIor = 1e-3;
+
 Texture texture_of(const Texels& argument) {
   const auto texels = argument.read("texture");
   const std::size_t channels = texels.shape(2);
@@ -37,18 +39,18 @@ void bind_material(nb::module_& module) {
              std::optional<bool> double_sided) {
             Material m;
             m.name = name;
-            m.diffuse = diffuse.read("diffuse");
-            m.ambient = ambient ? ambient->read("ambient") : m.diffuse;
-            m.specular = specular.read("specular");
-            m.shininess = shininess;
-            m.reflectance = reflectance.read("reflectance");
-            m.transmittance = transmittance.read("transmittance");
-            m.ior = ior;
+            m.diffuse = diffuse.read_color("diffuse");
+            m.ambient = ambient ? ambient->read_color("ambient") : m.diffuse;
+            m.specular = specular.read_color("specular");
+            m.shininess = number_within(shininess, "shininess", 0.0, kMost);
+            m.reflectance = reflectance.read_color("reflectance");
+            m.transmittance = transmittance.read_color("transmittance");
+            m.ior = number_within(ior, "ior", kLeastIor, kMost);
             m.fresnel = fresnel;
-            m.emission = emission.read("emission");
-            m.gloss = gloss;
-            m.attenuation_color = attenuation_color.read("attenuation_color");
-            m.attenuation_distance = attenuation_distance;
+            m.emission = emission.read_color("emission");
+            m.gloss = number_within(gloss, "gloss", 0.0, kMost);
+            m.attenuation_color = attenuation_color.read_color("attenuation_color");
+            m.attenuation_distance = number_within(attenuation_distance, "attenuation_distance", 0.0, kMost);
             m.double_sided = double_sided;
             new (self) TexturedMaterial{
                 m, texture ? std::make_shared<const Texture>(texture_of(*texture)) : nullptr};
@@ -70,7 +72,7 @@ void bind_material(nb::module_& module) {
           "double_sided: False: the camera sees through the surface from behind, unless backfaces='draw'. "
           "None: "
           "only with backfaces='cull'.\n"
-          "Raises Error if a colour or the texture has another shape.")
+          "Raises Error if a colour or the texture has another shape, or a number is negative or not finite.")
       .def_prop_ro("name", [](const TexturedMaterial& m) { return m.material.name; })
       .def_prop_ro("diffuse", [](const TexturedMaterial& m) { return m.material.diffuse; })
       .def_prop_ro("specular", [](const TexturedMaterial& m) { return m.material.specular; })

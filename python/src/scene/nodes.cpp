@@ -15,7 +15,7 @@ namespace pinocchio::python {
 namespace {
 
 // A scene is copied (cheaply) before it is read without the GIL, because other threads may change it.
-PyScene with_transforms(const PyScene& self, const nb::dict& transforms) {
+PyScene with_transforms(const PyScene& self, const Dict& transforms) {
   const Scene scene = self.now();
   NodeNumbers numbers(scene);
   const std::vector<NodeTransform> moves = transforms_of(numbers, transforms);
@@ -55,12 +55,15 @@ int NodeNumbers::of(const std::variant<int, std::string>& name) {
   throw Error("there is no node '" + std::get<std::string>(name) + "'; Scene.nodes lists them");
 }
 
-std::vector<NodeTransform> transforms_of(NodeNumbers& numbers, const nb::dict& transforms) {
+std::vector<NodeTransform> transforms_of(NodeNumbers& numbers, const Dict& transforms) {
   std::vector<NodeTransform> moves;
-  for (const auto& [name, matrix] : transforms)
-    moves.push_back(
-        {numbers.of(nb::cast<std::variant<int, std::string>>(name)),
-         Matrix{nb::borrow(matrix)}.read("the transform of " + std::string(nb::repr(name).c_str()))});
+  for (const auto& [key, matrix] : transforms.read("transforms")) {
+    const std::string shown_key = nb::repr(key).c_str();
+    std::variant<int, std::string> node;
+    if (!nb::try_cast(key, node))
+      throw Error("transforms names " + shown_key + "; give a node's name or index");
+    moves.push_back({numbers.of(node), Matrix{nb::borrow(matrix)}.read("the transform of " + shown_key)});
+  }
   return moves;
 }
 
@@ -123,6 +126,7 @@ void bind_nodes(nb::class_<PyScene>& bound) {
             std::vector<int> numbers;
             NodeNumbers all(scene);
             for (const auto& node : nodes) numbers.push_back(all.of(node));
+            if (!scene.nodes) return std::nullopt;
             const auto below = [&](int node) {
               for (; children && node >= 0; node = scene.nodes->nodes[as_size(node)].parent)
                 if (std::ranges::count(numbers, node) > 0) return true;

@@ -63,13 +63,16 @@ PyScene load(const std::filesystem::path& path, bool confine, const std::string&
   return PyScene(std::move(scene));
 }
 
-PyScene assemble(const nb::dict& parts) {
+PyScene assemble(const Dict& given) {
+  const nb::dict parts = given.read("parts");
   std::vector<Scene> scenes;
   scenes.reserve(nb::len(parts));
   std::vector<Part> all;
   for (const auto& [name, part] : parts) {
     const bool placed = nb::isinstance<nb::tuple>(part);
-    const std::string named = nb::cast<std::string>(name);
+    std::string named;
+    if (!nb::try_cast(name, named))
+      throw Error("a part is named " + std::string(nb::repr(name).c_str()) + "; its name is a text");
     if (placed && nb::len(part) != 2)
       throw Error("the part '" + named + "' must be a scene, or (scene, 4x4 matrix)");
     const nb::object scene = placed ? nb::object(part[0]) : nb::borrow(part);
@@ -143,14 +146,16 @@ void bind_making(SceneClass& bound) {
           "vertices: (n, 3) float32, in any unit. triangles: (m, 3) uint32, indices of vertices.\n"
           "normals: (n, 3) float32. None: triangles are flat.\n"
           "uvs: (n, 2) float32. (0, 0) is the texture's first texel.\n"
-          "colors: (n, 3) of the vertices or (m, 3) of the triangles, linear. If n equals m, they are the "
-          "vertices'.\n"
+          "colors: (n, 3) of the vertices or (m, 3) of the triangles, linear, 1 is white. They multiply the "
+          "materials' diffuse and\n"
+          "ambient; without materials these are 1. If n equals m, they are the vertices'.\n"
           "materials: a Material or a list of them. triangle_materials: (m,) uint32, the index of each "
           "triangle's material.\n"
           "environment: the light around the scene, as the property of that name.\n"
           "A scene without lights is drawn with one above the camera.\n"
-          "Raises Error if the numbers of rows do not match, an index is out of range or a number is not "
-          "finite.")
+          "Raises Error if the numbers of rows do not match, an index is out of range, a number is not "
+          "finite or a colour is\n"
+          "negative.")
       .def("__repr__", &described)
       .def("__copy__", [](const PyScene& self) { return PyScene(self.now()); })
       .def(
@@ -169,15 +174,17 @@ void bind_surroundings(SceneClass& bound) {
       .def_prop_rw(
           "lights", [](const PyScene& s) { return nb::typed<nb::list, Light>(s.lights); },
           [](PyScene& s, const nb::typed<nb::iterable, Light>& lights) {
-            (void)all_of<Light>(lights, "lights", "Light");
-            s.lights = nb::list(lights);
+            const nb::list all(lights);  // a generator is read once
+            (void)all_of<Light>(all, "lights", "Light");
+            s.lights = all;
           },
           "A list of Light: append to it, or change its lights, and the next picture shows it.")
       .def_prop_rw(
           "cameras", [](const PyScene& s) { return nb::typed<nb::list, Camera>(s.cameras); },
           [](PyScene& s, const nb::typed<nb::iterable, Camera>& cameras) {
-            (void)all_of<Camera>(cameras, "cameras", "Camera");
-            s.cameras = nb::list(cameras);
+            const nb::list all(cameras);
+            (void)all_of<Camera>(all, "cameras", "Camera");
+            s.cameras = all;
           },
           "A list of Camera, which can be changed as lights can.")
       .def_prop_rw(

@@ -47,7 +47,7 @@ class NodeNumbers {
 };
 
 // The moves of {name or index: 4x4 matrix from the node to its parent}. Throws Error.
-[[nodiscard]] std::vector<NodeTransform> transforms_of(NodeNumbers& numbers, const nb::dict& transforms);
+[[nodiscard]] std::vector<NodeTransform> transforms_of(NodeNumbers& numbers, const Dict& transforms);
 
 // Scene's properties and methods of nodes.
 void bind_nodes(nb::class_<PyScene>& bound);

@@ -1,6 +1,7 @@
 #include "python/src/support/arguments.h"
 
 #include <cmath>
+#include <glm/gtc/matrix_access.hpp>
 #include <limits>
 
 #include "pinocchio/conversion.h"
@@ -99,7 +100,24 @@ glm::mat4 Matrix::read(const std::string& name) const {
                   "; it needs finite numbers");
     result[i % 4][i / 4] = number;
   }
+  if (glm::row(result, 3) != glm::vec4(0, 0, 0, 1))
+    throw Error(name + " has the last row " + text_of(array[3]) +
+                "; it is (0, 0, 0, 1) of a matrix that places something (is it transposed?)");
   return result;
+}
+
+glm::vec3 Three::read_color(const char* name) const {
+  const glm::vec3 color = read(name);
+  if (glm::any(glm::lessThan(color, glm::vec3(0.0f))))
+    throw Error(std::string(name) + " is " + text_of(source) + "; it needs numbers from 0 on");
+  return color;
+}
+
+nb::dict Dict::read(const std::string& name) const {
+  const nb::module_ abc = nb::module_::import_("collections.abc");
+  if (!nb::isinstance(source, abc.attr("Mapping")))
+    throw Error(name + " is a " + text_of(source.type().attr("__name__")) + "; it is a dict");
+  return nb::steal<nb::dict>(PyObject_CallOneArg(reinterpret_cast<PyObject*>(&PyDict_Type), source.ptr()));
 }
 
 glm::ivec2 Size::read() const {

@@ -72,7 +72,7 @@ using Words = Like<std::uint32_t, -1>;
 using Texels = Like<std::uint8_t, -1, -1, -1>;
 using Pixels = Like<float, -1, -1, 3>;
 
-// A 4x4 matrix of finite numbers. NumPy has rows, GLM columns.
+// A 4x4 matrix of finite numbers, whose last row is (0, 0, 0, 1). NumPy has rows, GLM columns.
 struct Matrix {
   nb::object source;
   [[nodiscard]] glm::mat4 read(const std::string& name) const;
@@ -85,6 +85,14 @@ struct Three {
     const std::vector<float> v = numbers_of(source, name, 3);
     return {v[0], v[1], v[2]};
   }
+  // Light, or a share of it: none of the numbers is negative.
+  [[nodiscard]] glm::vec3 read_color(const char* name) const;
+};
+
+// A dict, or another mapping.
+struct Dict {
+  nb::object source;
+  [[nodiscard]] nb::dict read(const std::string& name) const;
 };
 
 // A picture's size in pixels, (width, height).
@@ -99,13 +107,14 @@ std::vector<To> copied(const Array& array) {
   return {first, first + array.shape(0)};
 }
 
-// A property of three numbers: `get(object)` is a reference to them.
+// A property of three numbers, read by `read`: `get(object)` is a reference to them.
 template <class Class, class Get>
-void def_three(Class& bound, const char* name, Get get, const char* doc = "") {
+void def_three(Class& bound, const char* name, Get get, const char* doc = "",
+               glm::vec3 (Three::*read)(const char*) const = &Three::read) {
   using T = typename Class::Type;
   bound.def_prop_rw(
       name, [get](const T& object) -> glm::vec3 { return get(const_cast<T&>(object)); },
-      [get, name](T& object, const Three& value) { get(object) = value.read(name); }, doc);
+      [get, name, read](T& object, const Three& value) { get(object) = (value.*read)(name); }, doc);
 }
 
 // A property that is a number from lo to hi. `member`: pointer to it.
@@ -151,6 +160,10 @@ struct type_caster<pinocchio::python::Three> {
 template <>
 struct type_caster<pinocchio::python::Size> {
   PINOCCHIO_UNREAD(pinocchio::python::Size, "collections.abc.Sequence[int]")
+};
+template <>
+struct type_caster<pinocchio::python::Dict> {
+  PINOCCHIO_UNREAD(pinocchio::python::Dict, "collections.abc.Mapping[typing.Any, typing.Any]")
 };
 #undef PINOCCHIO_UNREAD
 

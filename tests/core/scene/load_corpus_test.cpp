@@ -18,7 +18,8 @@ void read(const std::filesystem::path& file, const std::string& format) {
     Warnings warnings;
     MemoryLimit limit(kLimit);
     InputFiles files(file, false);
-    Loading loading{warnings, nullptr, limit, files};
+    const LoadOptions usual;
+    Loading loading{warnings, nullptr, limit, files, usual};
     return (void)load_texture(file, loading);
   }
   const bool is_mtl = format == "mtl";

@@ -139,6 +139,17 @@ TEST(LoadLost, PointsAndLinesBesideTriangles) {
   EXPECT_NE(lines.find("1 more place"), std::string::npos) << lines;
 }
 
+TEST(LoadLost, PlacesOfNodesThatAreNone) {
+  Json json = triangle_json();
+  json["nodes"][0]["translation"] = {1, 2};
+  const std::string line = line_about(warnings_of(json), "translation is left out");
+  EXPECT_NE(line.find("node 0: its translation is left out, as it is not 3 numbers"), std::string::npos)
+      << line;
+  json = triangle_json();
+  json["nodes"][0]["matrix"] = std::vector<int>(15, 1);
+  EXPECT_NE(line_about(warnings_of(json), "matrix is left out"), "");
+}
+
 TEST(LoadLost, VersionAndRequiredExtensionsBeforeAnythingElse) {
   Json json = triangle_json();
   json["asset"]["version"] = "1.0";

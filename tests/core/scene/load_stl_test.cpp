@@ -47,10 +47,18 @@ std::string binary(const std::vector<glm::mat3>& triangles, std::uint32_t said, 
 
 const glm::mat3 kCorners{{0, 0, 0}, {1, 0, 0}, {0, 2.5f, -3}};
 
+std::string on_one_line(std::string text, char separator) {
+  std::ranges::replace(text, '\n', separator);
+  return text;
+}
+
 TEST(LoadStl, BothKindsHoldTheSameTriangles) {
   for (const std::string& bytes :
        {"solid part\n" + kFacet + kFacet + "endsolid part\n", "SOLID\r\n" + kFacet + kFacet,
-        binary({kCorners, kCorners}, 2), binary({kCorners, kCorners}, 2, "solid, but binary")}) {
+        "\xef\xbb\xbfsolid vertex\n" + kFacet + kFacet, "\n\n  solid part\n" + kFacet + kFacet,
+        on_one_line("solid part " + kFacet + kFacet, ' '),
+        on_one_line("solid part\n" + kFacet + kFacet, '\r'), binary({kCorners, kCorners}, 2),
+        binary({kCorners, kCorners}, 2, "solid, but binary")}) {
     Warnings warnings;
     const Expected<Scene> scene = load_bytes(bytes, &warnings);
     ASSERT_TRUE(scene) << scene.error().message();

@@ -204,6 +204,32 @@ TEST(Cameras, TheCallersRaysAreTheirPixels) {
   EXPECT_EQ(rays.at(0, 0).direction, glm::vec3(0.0f));
 }
 
+TEST(Cameras, ThatCannotDrawAreRefused) {
+  const auto error_of = [](const auto& change, Projection projection = Projection::perspective) {
+    Camera camera = camera_with(projection);
+    change(camera);
+    const Expected<void> checked = check_camera(camera);
+    return checked ? std::string() : checked.error().message();
+  };
+  EXPECT_EQ(error_of([](Camera&) {}), "");
+  EXPECT_EQ(error_of([](Camera& c) { c.fov_deg = 360.0f; }, Projection::fisheye), "");
+  EXPECT_EQ(error_of([](Camera& c) { c.target = c.eye; }),
+            "the camera's eye and its target are the same point; move one of them");
+  EXPECT_EQ(error_of([](Camera& c) { c.up = {}; }),
+            "the camera's up is not a direction; give one such as 0,1,0");
+  for (const float wrong : {NAN, INFINITY, 2e9f})
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NE(error_of([&](Camera& c) { c.eye[axis] = wrong; }), "") << wrong;
+      EXPECT_NE(error_of([&](Camera& c) { c.target[axis] = wrong; }), "") << wrong;
+      EXPECT_NE(error_of([&](Camera& c) { c.up[axis] = wrong; }), "") << wrong;
+    }
+  for (const float wrong : {NAN, -1.0f, 0.0f, 180.0f})
+    EXPECT_NE(error_of([&](Camera& c) { c.fov_deg = wrong; }), "") << wrong;
+  EXPECT_NE(error_of([](Camera& c) { c.fov_deg = 361.0f; }, Projection::fisheye), "");
+  for (const float wrong : {NAN, 0.0f, 2e9f})
+    EXPECT_NE(error_of([&](Camera& c) { c.height = wrong; }), "") << wrong;
+}
+
 TEST(Cameras, WhatOpenGlDrawsIsKnown) {
   EXPECT_TRUE(camera_with(Projection::perspective).is_rasterisable());
   EXPECT_TRUE(camera_with(Projection::orthographic).is_rasterisable());

@@ -284,7 +284,7 @@ TEST(Tracer, SortedRaysKeepTheirPlaces) {
   const RayColumns columns{{column[0].data(), column[1].data(), column[2].data()},
                            {column[3].data(), column[4].data(), column[5].data()},
                            column[6].data()};
-  EXPECT_TRUE(rays_diverge(columns, rays.size()));
+  EXPECT_TRUE(sorting_pays(columns, rays.size()));
   const std::vector<Hit> expected = trace(Tracer(scene.mesh, {}, Isa::scalar), rays);  // which never sorts
   AlignedVector<std::uint32_t> triangle(room);
   AlignedVector<float> t(room);

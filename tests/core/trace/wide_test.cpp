@@ -10,8 +10,8 @@
 
 #include "core/bsp/wide/build_wide.h"
 #include "core/bsp/wide/wide_on_demand.h"
+#include "core/trace/rays/coherence.h"
 #include "core/trace/rays/ray_queue.h"
-#include "core/trace/rays/rays_part.h"
 #include "core/trace/view/view_params.h"
 #include "core/trace/walk/kernels.h"
 #include "scenes/generator/mesh_builder.h"
@@ -222,7 +222,7 @@ TEST(Wide, BoxesHoldEveryTriangleOnce) {
   expect_every_triangle_once(std::make_shared<const Mesh>(std::move(stack)));
 }
 
-TEST(Wide, IsBuiltOnceEnoughRaysPart) {
+TEST(Wide, IsBuiltAfterEnoughIncoherentRays) {
   const Tracer tracer(jagged_ball(glm::vec3(0.0f), 32), {}, Isa::scalar);
   const auto trees = std::shared_ptr<const SceneTrees>(&tracer.trees(), [](const SceneTrees*) {});
   ASSERT_TRUE(WideOnDemand::serves(*trees, Isa::sse4));
@@ -258,10 +258,10 @@ TEST(Wide, NoHitDependsOnWhenItIsBuilt) {
   }
 }
 
-TEST(RaysPart, InSmallPicturesOfManyTrianglesAndInNoOrder) {
+TEST(Coherence, InSmallPicturesOfManyTrianglesAndInNoOrder) {
   const Scene scene = plate_over_floor();
   const auto part = [](const std::vector<Ray>& rays, float apart) {
-    return rays_part(Columns(rays).get(), rays.size(), glm::vec3(0.0f), apart);
+    return are_incoherent(Columns(rays).get(), rays.size(), glm::vec3(0.0f), apart);
   };
   const auto picture = [&scene](int size) {
     Camera camera = scene.cameras.empty() ? Camera{} : scene.cameras.front();

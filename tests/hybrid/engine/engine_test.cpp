@@ -94,6 +94,11 @@ TEST(Engine, WhatCannotBeDrawnComesBackAsAnError) {
   const Expected<FrameResult> none = engine.render(scene, view(), settings);
   ASSERT_FALSE(none);
   EXPECT_NE(none.error().message().find("tiles"), std::string::npos) << none.error().message();
+  View nowhere = view();
+  nowhere.camera.target = nowhere.camera.eye;
+  const Expected<FrameResult> picture = engine.render(scene, nowhere, alone());
+  ASSERT_FALSE(picture);
+  EXPECT_NE(picture.error().message().find("same point"), std::string::npos) << picture.error().message();
 }
 
 // The CPU's own picture as a texture: OpenGL is opened for it.

@@ -135,6 +135,7 @@ class FeatureAudit {
 
   void run() {
     check_meshes();
+    check_nodes();
     for (const auto& [collection, items] : gltf_.items()) {
       if (!items.is_array() || collection.empty()) continue;
       const std::string kind = collection == "meshes" ? "mesh" : collection.substr(0, collection.size() - 1);
@@ -189,6 +190,18 @@ class FeatureAudit {
       }
   }
 
+  void check_nodes() {
+    constexpr std::pair<const char*, std::size_t> kPlaces[] = {
+        {"matrix", 16}, {"translation", 3}, {"rotation", 4}, {"scale", 3}};
+    const Json& nodes = array_member(&gltf_, "nodes");
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (const auto& [key, count] : kPlaces)
+        if (member(&nodes[i], key) && numbers_member(&nodes[i], key).size() != count)
+          lost(place("node", nodes[i], i),
+               std::string("its ") + key + " is left out, as it is not " + std::to_string(count) + " numbers",
+               "it may lie elsewhere");
+  }
+
   void check_material(std::size_t index, const Json& material, const std::string& where) {
     const auto wrong_type = [&](std::string_view at) {
       lost(where, "its " + last_name(at) + " has the wrong type", "the default is used");
@@ -240,9 +253,6 @@ class FeatureAudit {
     if (!texture || !has_image(*texture))
       lost(where, which + " names an image that does not exist",
            "surfaces that it should cover have one colour");
-    if (number_of(info, "texCoord", 0) > 1)
-      lost(where, "texture coordinates beyond the second set are left out",
-           "its texture lies as the first set says");
     const Json* extensions = member(&info, "extensions");
     const Json* transform = member(extensions, "KHR_texture_transform");
     if (transform && !transform->is_object())
@@ -250,6 +260,9 @@ class FeatureAudit {
            "its texture is placed as if there were none");
     const double usual = number_of(info, "texCoord", 0),
                  set = transform ? number_of(*transform, "texCoord", usual) : usual;
+    if (set > 1)
+      lost(where, "texture coordinates beyond the second set are left out",
+           "its texture lies as the first set says");
     if (uncovered_[set == 1 ? 1 : 0].contains(as_double(material)))
       lost(where, which + " lies on triangles without texture coordinates", "it has one colour there");
   }

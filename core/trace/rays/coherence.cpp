@@ -1,4 +1,4 @@
-#include "core/trace/rays/rays_part.h"
+#include "core/trace/rays/coherence.h"
 
 #include <algorithm>
 
@@ -11,10 +11,10 @@ glm::vec3 row(const float* const (&columns)[3], std::size_t i) {
 
 }  // namespace
 
-bool rays_part(const RayColumns& rays, std::size_t n, const glm::vec3& center, float apart) {
+bool are_incoherent(const RayColumns& rays, std::size_t n, const glm::vec3& center, float apart) {
   constexpr std::size_t kSamples = 16;  // pairs of neighbours
   const std::size_t step = std::max<std::size_t>(n / kSamples, 2);
-  std::size_t pairs = 0, parting = 0;
+  std::size_t pairs = 0, apart_pairs = 0;
   for (std::size_t i = 0; i + 1 < n; i += step) {
     const glm::vec3 from = row(rays.origin, i), from_beside = row(rays.origin, i + 1);
     const glm::vec3 d = row(rays.direction, i), d_beside = row(rays.direction, i + 1);
@@ -22,9 +22,9 @@ bool rays_part(const RayColumns& rays, std::size_t n, const glm::vec3& center, f
     const glm::vec3 between =
         from_beside - from + way * (d_beside / glm::length(d_beside) - d / glm::length(d));
     ++pairs;
-    if (glm::length(between) > apart) ++parting;
+    if (glm::length(between) > apart) ++apart_pairs;
   }
-  return 10 * parting > 3 * pairs;
+  return 10 * apart_pairs > 3 * pairs;
 }
 
 }  // namespace pinocchio
