@@ -78,5 +78,71 @@ TEST(Panes, ThinGlassMirrorsBySchlick) {
   }
 }
 
+// A plate under an even sky of 1, seen at an angle.
+Scene plate_under_even_sky(const GltfSurface& surface, double cosine) {
+  MeshData mesh;
+  {
+    MeshBuilder builder(mesh);
+    builder.use(material_from_surface(surface, Shading::from_file));
+    builder.quad({-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9});
+  }
+  const double sine = std::sqrt(1.0 - cosine * cosine);
+  Scene scene = seen_from(std::move(mesh), 3.0f * glm::vec3(as_float(sine), as_float(cosine), 0.0f));
+  scene.environment = std::make_shared<const Environment>(Image<glm::vec3>({16, 8}, glm::vec3(1.0f)));
+  return scene;
+}
+
+// Where some light goes through, the matt part keeps no more than the lobe and the glass leave it.
+TEST(Panes, WhatIsPartlyGlassReturnsNoMoreThanItGets) {
+  for (const float transmission : {0.25f, 0.5f, 0.75f})
+    for (const double cosine : {0.1, 0.2, 0.4}) {
+      const Scene scene = plate_under_even_sky(
+          {.base_color = glm::vec3(1.0f), .metallic = 0.0f, .roughness = 0.0f, .transmission = transmission},
+          cosine);
+      for (Way way : ways()) {
+        way.settings.spp = 32;
+        const glm::dvec3 mean = sum_of(drawn(scene, way.settings).color) / (1.0 * kSize.x * kSize.y);
+        EXPECT_NEAR(mean.g, 1.0, 0.015) << way.name << " " << transmission << " " << cosine;
+      }
+    }
+}
+
+// A metal's part mirrors as the metal does, and KHR_materials_specular weighs what glass mirrors, with a
+// volume and without, by the rays of every schedule and by the reference.
+TEST(Panes, GlassMirrorsByItsF0) {
+  const glm::vec3 gold(1.0f, 0.5f, 0.1f), none(0.0f);
+  const auto below_a_white_wall = [](const GltfSurface& surface) {
+    MeshData mesh;
+    {
+      MeshBuilder builder(mesh);
+      builder.use(material_from_surface(surface, Shading::from_file));
+      builder.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
+      builder.use(shining(glm::vec3(1.0f)));  // the ceiling, which it mirrors
+      builder.quad({-30, 30, 30}, {-30, 30, -30}, {30, 30, -30}, {30, 30, 30});
+    }
+    return seen_from(std::move(mesh), {0.01f, 3, 0});
+  };
+  const struct {
+    GltfSurface surface;
+    glm::vec3 f0;
+  } kCases[] = {
+      {{.base_color = gold, .metallic = 0.9f, .roughness = 0.0f, .transmission = 1.0f}, 0.9f * gold + 0.004f},
+      {{.base_color = gold, .metallic = 254.0f / 255.0f, .roughness = 0.0f, .transmission = 1.0f}, gold},
+      {{.metallic = 0.0f, .roughness = 0.0f, .specular = 0.0f, .transmission = 1.0f}, none},
+      {{.metallic = 0.0f, .roughness = 0.0f, .specular_color = {5.0f, 1.0f, 0.0f}, .transmission = 1.0f},
+       {0.2f, 0.04f, 0.0f}},
+      {{.metallic = 0.0f, .roughness = 0.0f, .ior = 2.0f, .transmission = 1.0f}, glm::vec3(1.0f / 9.0f)}};
+  for (auto [surface, f0] : kCases)
+    for (const bool volume : {false, true}) {
+      surface.volume = volume;
+      const Scene scene = below_a_white_wall(surface);
+      const std::string what = std::string(volume ? "volume " : "thin ") + std::to_string(surface.metallic) +
+                               " " + std::to_string(surface.specular);
+      for (const Way& way : ways())
+        expect_near(middle(drawn(scene, way.settings).color), f0, 0.015f, way.name + ", " + what);
+      expect_near(middle(precise(scene).color), f0, 0.01f, "the reference, " + what);
+    }
+}
+
 }  // namespace
 }  // namespace pinocchio

@@ -136,6 +136,44 @@ TEST_F(WindowTest, ADraggedLightIsInAFileThatTheCommandDraws) {
   expect_clean_close();
 }
 
+// It lights a file without light: with its lamp in it, the file would be another picture.
+TEST_F(WindowTest, TheStudioIsNotSavedWithTheScene) {
+  std::ofstream(folder_ / "corner.obj")
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  open((folder_ / "corner.obj").string());
+  key("ctrl+s");
+  ASSERT_TRUE(becomes([this] { return std::filesystem::exists(folder_ / "corner-001.gltf"); }));
+  EXPECT_EQ(text_of(folder_ / "corner-001.gltf").find("KHR_lights_punctual"), std::string::npos);
+  EXPECT_EQ(option(command_line(), "--environment"), "");
+  expect_clean_close("a studio lights and frames it");
+}
+
+// It waits for the tree, as OpenGL cannot draw it.
+TEST_F(WindowTest, APanoramaIsDrawnFromTheStartOn) {
+  open(scene("cornell"), "--projection panorama");
+  EXPECT_TRUE(becomes([this] {
+    settle("panorama.png");
+    const Image<glm::u8vec3> seen = picture("panorama.png");
+    return std::ranges::count_if(seen.pixels(), [](const glm::u8vec3& p) { return p.g > 20; }) > 20000;
+  }));
+  expect_clean_close();
+}
+
+// As on a full disk: the window stays, and says what happened.
+TEST_F(WindowTest, ARecordingThatCannotBeWrittenEnds) {
+  open(scene("cornell"), "--mode raster");
+  key(kStill);
+  std::filesystem::create_directories(folder_ / "cornell-001-0002.png" / "taken");
+  key("k");
+  ASSERT_TRUE(becomes([this] {
+    drag(1, 10, 5);
+    return errors().find("the recording has ended") != std::string::npos;
+  })) << errors();
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "cornell-001-0001.png"));
+  EXPECT_TRUE(program_->running());
+  expect_clean_close("cornell-001-0002.png");
+}
+
 TEST_F(WindowTest, EveryKey) {
   open(scene("cornell"), "--plan slides");
   std::string keys = "Tab Return BackSpace Insert Home End Prior Next Left Right Up Down space";
