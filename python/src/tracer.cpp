@@ -61,7 +61,9 @@ Rays rays_of(const Floats3& origins, const Floats3& directions, const std::optio
     throw Error("there are " + std::to_string(rays.o.shape(0)) + " origins and " + std::to_string(n) +
                 " directions; give the same number, or one origin");
   if (t_max) {
-    const bool is_number = !nb::hasattr(t_max->source, "__len__");
+    const nb::object& given = t_max->source;
+    const bool is_array = nb::hasattr(given, "ndim");
+    const bool is_number = is_array ? nb::cast<int>(given.attr("ndim")) == 0 : !nb::hasattr(given, "__len__");
     rays.t_max = (is_number ? Floats{nb::make_tuple(t_max->source)} : *t_max).read("t_max");
   }
   if (rays.t_max && rays.t_max->shape(0) != n && rays.t_max->shape(0) != 1)

@@ -132,6 +132,11 @@ def test_mappings_are_taken_as_dicts():
     assert again["color"] is pictures["color"]
 
 
+def test_one_length_for_all_rays_may_be_an_array_without_axes():
+    tracer = pn.Tracer(VERTICES, TRIANGLES)
+    assert [tracer.occluded([[0.2, 0.1, 1]], [[0, 0, -1]], numpy.array(t))[0] for t in (0.5, 2.0)] == [False, True]
+
+
 def test_a_scene_without_nodes_has_no_part_alone():
     assert pn.Scene(VERTICES, TRIANGLES).only([]) is None
 
