@@ -9,13 +9,19 @@
 namespace pinocchio::app {
 namespace {
 
-// The number for which `pattern` gives `name`.
-std::optional<int> number_in(const std::string& pattern, const std::string& name) {
-  const auto [first, end] = number_place(pattern);
-  const std::size_t fixed = first + (pattern.size() - end);
+std::string with_number(const std::string& pattern, const NumberPlace& place, int number) {
+  std::string digits = std::to_string(number);
+  const std::size_t width = place.end - place.first;
+  if (digits.size() < width) digits.insert(0, width - digits.size(), '0');
+  return pattern.substr(0, place.first) + digits + pattern.substr(place.end);
+}
+
+// The number with which `pattern` gives `name`.
+std::optional<int> number_in(const std::string& pattern, const NumberPlace& place, const std::string& name) {
+  const std::size_t fixed = place.first + (pattern.size() - place.end);
   if (name.size() <= fixed) return std::nullopt;
-  const std::optional<int> number = parse_int(name.substr(first, name.size() - fixed));
-  return number && *number >= 0 && numbered(pattern, *number) == name ? number : std::nullopt;
+  const std::optional<int> number = parse_int(name.substr(place.first, name.size() - fixed));
+  return number && *number >= 0 && with_number(pattern, place, *number) == name ? number : std::nullopt;
 }
 
 }  // namespace
@@ -34,11 +40,7 @@ NumberPlace number_place(const std::string& pattern) {
 
 std::filesystem::path numbered(const std::string& pattern, int number) {
   const NumberPlace place = number_place(pattern);
-  if (place.empty()) return pattern;
-  const auto [first, end] = place;
-  std::string digits = std::to_string(number);
-  if (digits.size() < end - first) digits.insert(0, end - first - digits.size(), '0');
-  return pattern.substr(0, first) + digits + pattern.substr(end);
+  return place.empty() ? pattern : with_number(pattern, place, number);
 }
 
 std::vector<int> numbers_in_use(const std::string& pattern, const FrameRange& range,
@@ -48,10 +50,13 @@ std::vector<int> numbers_in_use(const std::string& pattern, const FrameRange& ra
   // The part of the path with the number, and the folder that it is in.
   const std::filesystem::path until =
       pattern.substr(0, std::min(pattern.find('/', place.end), pattern.size()));
-  const std::filesystem::path folder = until.parent_path(), name = until.filename();
+  const std::filesystem::path folder = until.parent_path();
+  const std::string name = until.filename().string();
+  const std::size_t begin = until.string().size() - name.size();
+  const NumberPlace in_name{place.first - begin, place.end - begin};
   std::vector<int> numbers;
   const auto add_number_of = [&](const std::filesystem::path& file) {
-    const std::optional<int> number = number_in(name.string(), file.filename().string());
+    const std::optional<int> number = number_in(name, in_name, file.filename().string());
     if (number && range.contains(*number)) numbers.push_back(*number);
   };
   for (const std::filesystem::path& other : others) add_number_of(other);

@@ -75,7 +75,8 @@ void write_json(const std::filesystem::path& file, const nlohmann::json& json);
 // The error message for a file whose name does not end in `extension`; empty where it does.
 [[nodiscard]] std::string ending_error(const std::string& file, const std::string& extension);
 
-// Makes the folder and those above it that are missing. Ends the verb with kFailed where it cannot.
+// Makes the folder and those above it that are missing. Ends the verb with kFailed where it cannot; the line
+// says that `option` names another one.
 void make_folder(const std::filesystem::path& folder, const char* option);
 
 // Ends the verb before anything is drawn: with kUsage where several frames would be written to one file, with

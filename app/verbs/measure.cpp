@@ -310,9 +310,7 @@ Run add_measure(CLI::App& program) {
   add_animation_options(verb, options->animation);
   verb.get_option("--frames")
       ->description(
-          "frames to draw: N of them, or frames A to B, of a turn of 120 unless --turntable or --path is "
-          "given "
-          "(120)")
+          "frames to draw: N of them, or frames A to B; of a turn of 120 without --turntable or --path (120)")
       ->type_name("N|A-B[xSTEP]");
   add_budget_options(verb, options->budget);
   verb.add_flag("--compare", options->compare,

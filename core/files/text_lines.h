@@ -9,14 +9,16 @@ namespace pinocchio {
 
 inline constexpr char kJoint = '\v';  // marks where a backslash joined two lines
 
-// Joins lines that end with a backslash to the next line, but for comments, which may end with a folder's
-// name. The text's length stays.
+// Joins lines that end with a backslash to the next line, except comments: one may end with a Windows path.
+// The text's length stays.
 inline void join_lines(std::span<char> text) {
   const std::string_view read(text.data(), text.size());
+  std::size_t line = 0, seen = 0;  // where the line begins, looked for up to `seen`
   for (std::size_t at = read.find('\\'); at != read.npos; at = read.find('\\', at + 1)) {
     const std::size_t end = at + 1 + (read.substr(at + 1).starts_with("\r\n") ? 1 : 0);
     if (end >= text.size() || (text[end] != '\n' && text[end] != '\r')) continue;
-    const std::size_t line = read.find_last_of("\r\n", at) + 1;  // 0 on the first one
+    for (; seen < at; ++seen)
+      if (read[seen] == '\n' || read[seen] == '\r') line = seen + 1;
     if (read[std::min(read.find_first_not_of(" \t", line), at)] == '#') continue;
     text[at] = text[at + 1] = ' ';
     text[end] = kJoint;

@@ -57,7 +57,7 @@ class Workers::Pool {
 Workers::Workers(int threads, int niceness)
     : pool_(std::make_unique<Pool>(threads, niceness)), process_(getpid()) {}
 
-// To end the pool, a forked process would wait for threads that it does not have.
+// A forked process does not have the threads: to join them would take for ever.
 Workers::~Workers() {
   if (is_forked()) (void)pool_.release();
 }

@@ -6,8 +6,8 @@
 
 namespace pinocchio {
 
-// Worker threads that live as long as this object and take tiles of one job at a time. A process that is
-// forked has none of them: there the caller's thread does all the work.
+// Worker threads that live as long as this object and take tiles of one job at a time. A forked process has
+// no workers: there the caller's thread does all the work.
 class Workers {
  public:
   // `threads` in all, including the caller's; 0: one per core. niceness: of the threads other than the
@@ -30,7 +30,7 @@ class Workers {
   [[nodiscard]] bool is_forked() const;
 
   std::unique_ptr<Pool> pool_;
-  int process_;  // that started them
+  int process_;  // the process that started the threads
 };
 
 }  // namespace pinocchio

@@ -56,6 +56,9 @@ glm::dvec3 or_none(const glm::dvec3& mirror) {
   return std::max({mirror.x, mirror.y, mirror.z}) > 1.0 / 255.0 ? mirror : glm::dvec3(0.0);
 }
 
+// A metal's 8-bit map that is one step from 1 is no glass.
+constexpr double kLeastTransmission = 1.5 / 255.0;
+
 // docs/conventions.md, "Metallic-roughness".
 ReferenceMaterial material_of(const GltfSurface& s, const PointSurface& at, bool phong) {
   const auto& [base, emissive, specular_color, strength, metallic, roughness, transmission, layers] = at;
@@ -81,7 +84,7 @@ ReferenceMaterial material_of(const GltfSurface& s, const PointSurface& at, bool
     m.grazing = f90 + (1.0 - f90) * metallic;
     m.layer = {most, f90, transmission};
   }
-  const bool glass = transmission * (1.0 - metallic) > 1.5 / 255.0;
+  const bool glass = transmission * (1.0 - metallic) > kLeastTransmission;
   if (glass) {
     m.transmittance = (1.0 - metallic) * transmission * base;
     if (s.volume) m.ior = n;

@@ -16,10 +16,9 @@ Expected<void> check_camera(const Camera& camera) {
   const auto is_near = [](const glm::vec3& p) {
     return glm::all(glm::lessThanEqual(glm::abs(p), glm::vec3(kFarthest)));  // not where one is NaN
   };
-  if (!is_near(camera.eye))
-    return fail("the camera's eye is more than 1e9 from the origin", "move it nearer");
+  if (!is_near(camera.eye)) return fail("the camera's eye is not within 1e9 of the origin", "move it nearer");
   if (!is_near(camera.target))
-    return fail("the camera's target is more than 1e9 from the origin", "move it nearer");
+    return fail("the camera's target is not within 1e9 of the origin", "move it nearer");
   if (camera.eye == camera.target)
     return fail("the camera's eye and its target are the same point", "move one of them");
   if (camera.up == glm::vec3(0.0f) || !is_near(camera.up))
@@ -28,9 +27,9 @@ Expected<void> check_camera(const Camera& camera) {
   if (!(camera.fov_deg > 0.0f && (is_fisheye ? camera.fov_deg <= kWidestFisheye : camera.fov_deg < 180.0f)))
     return fail(is_fisheye ? "the camera's field of view is not between 0 and 360 degrees"
                            : "the camera's field of view is not between 0 and 180 degrees",
-                "give another one");
+                "choose one in between");
   if (!(camera.height > 0.0f && camera.height <= kFarthest))
-    return fail("the camera's height is not above 0, or more than 1e9", "give another one");
+    return fail("the camera's height is not above 0, or more than 1e9", "choose one in between");
   return {};
 }
 

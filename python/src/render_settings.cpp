@@ -57,9 +57,11 @@ std::string text_of_text(const Field& field, nb::handle value, const std::string
   if (nb::isinstance<nb::str>(value) || !PySequence_Check(value.ptr())) return text_of(value);
   std::string text;
   for (const nb::handle item : nb::borrow<nb::sequence>(value)) {
-    if (!PyNumber_Check(item.ptr()) || nb::hasattr(item, "__len__"))
+    try {
+      text += (text.empty() ? "" : ",") + std::string(nb::str(nb::float_(item)).c_str());
+    } catch (const nb::python_error&) {  // it is no number
       throw Error(named + "; it is " + field.domain());
-    text += (text.empty() ? "" : ",") + std::string(nb::str(nb::float_(item)).c_str());
+    }
   }
   return text;
 }

@@ -1,4 +1,5 @@
 """What a wrong argument gets: one line that names it and says what it should be."""
+import collections.abc
 import types
 
 import numpy
@@ -113,6 +114,39 @@ def test_pictures_that_cannot_be_written_to_are_compared():
     shown = (picture * 255).astype(numpy.uint8)
     shown.flags.writeable = False
     assert pn.compare(shown, shown)["rmse"] == 0
+
+
+def test_a_last_row_may_be_rounded():
+    rounded = numpy.eye(4)
+    rounded[3] = 1e-7, 0, -1e-17, 0.99999994
+    assert node_scene().posed({"part": rounded}).node_transforms[0][3].tolist() == [0, 0, 0, 1]
+    assert pn.Camera.from_pose(rounded).fov == 45
+
+
+def test_a_mapping_that_fails_says_why():
+    class Broken(collections.abc.Mapping):
+        def __getitem__(self, key):
+            raise KeyError(key)
+
+        def __iter__(self):
+            raise RuntimeError("nothing to see")
+
+        def __len__(self):
+            return 1
+
+    with pytest.raises(RuntimeError, match="nothing to see"):
+        node_scene().posed(Broken())
+
+
+def test_glass_without_a_distance_is_clear():
+    assert pn.Material(attenuation_distance=numpy.inf).attenuation_distance == 0
+    assert pn.Material(attenuation_distance=5e6, shininess=2e6).attenuation_distance == 5e6
+
+
+def test_a_background_may_be_arrays_without_axes():
+    grey = tuple(numpy.array(0.5, numpy.float32) for _ in range(3))
+    picture = pn.Engine().render(node_scene(), pn.Camera((0, 0, 4), (0, 0, 8)), (4, 4), background=grey)
+    assert (picture.color[..., :3] == 0.5).all()
 
 
 def test_a_generator_of_lights_is_read_once():

@@ -32,7 +32,7 @@ Expected<Scene> make_procedural(const std::string& name, const ProceduralOptions
     if (name == entry.name) {
       if (options.triangles > 0 && entry.triangles == 0)
         return Unexpected(InputError{
-            {}, 0, "the scene '" + name + "' has always as many triangles", "leave out --triangles"});
+            {}, 0, "the scene '" + name + "' has a fixed number of triangles", "leave out --triangles"});
       const int triangles = options.triangles > 0 ? options.triangles : entry.triangles;
       begin_phase(options.progress, "generate", triangles);
       Scene scene = entry.make(triangles, options.progress);

@@ -121,7 +121,7 @@ SHARED real mean_below(READ_ONLY(ShadingParams) m, real n_dot_v) {
   return 1.0f - layer_fresnel(m, x * (0.0044f + x * (0.0257f * x - 0.002f)));
 }
 
-// The factor of the matt part so that lobe, matt part and what goes through are no more than all light from all around.
+// The factor of the matt part: with it, lobe, matt part and what goes through return no more light than arrives.
 SHARED real matt_limit(READ_ONLY(ShadingParams) m, real n_dot_v) {
   real matt = kPi * brightest(m.diffuse) * mean_below(m, n_dot_v) / max(1.0f - m.layer.z, 1e-6f);
   return min((1.0f - lobe_share(m, m.ggx_alpha, n_dot_v)) / max(matt, 1e-6f), 1.0f);

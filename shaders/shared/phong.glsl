@@ -34,8 +34,8 @@ SHARED real cone_share(LightParams light, vec3 to_light) {
   return cone * cone;
 }
 
-// The light that is left at a distance: none beyond the light's range, and with the falloff of physics it fades
-// towards it by the window that KHR_lights_punctual recommends.
+// What a light's range leaves of its radiance at a distance: nothing beyond the range. With inverse-square falloff the
+// radiance fades before, by the window that KHR_lights_punctual recommends.
 SHARED vec3 within_range(LightParams light, real distance, vec3 radiance) {
   if (light.range > 1e30f) return radiance;
   vec3 left = pick(distance > light.range, vec3(0.0f), radiance);

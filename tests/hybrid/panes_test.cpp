@@ -48,6 +48,41 @@ TEST(Panes, ManyThatBlendLetTheRestThrough) {
   expect_near(middle(precise(scene).color), wanted, 1e-4f, "the reference");
 }
 
+// Each of the rays that only go straight on has random numbers of its own: as many bounces between matt walls
+// are as bright whatever `--depth` is.
+TEST(Panes, BehindTheLastBounceIndirectLightIsTheSame) {
+  constexpr int kPanes = 6;
+  MeshData mesh;
+  {
+    MeshBuilder builder(mesh);
+    builder.use(matt(0.8f));
+    builder.box({-1, -1, -1}, {1, 1, 1});
+    for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);  // a room
+    builder.use(matt(0.8f));
+    for (int i = 0; i < kPanes; ++i) {
+      const float z = 0.1f * as_float(i);
+      builder.quad({-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z});
+    }
+  }
+  MaterialMaps& maps = make_maps(mesh, mesh.materials[1]);
+  maps.alpha_mode = AlphaMode::blend;
+  maps.alpha_factor = 0.001f;
+  Scene scene = seen_from(std::move(mesh), {0, 0, 0.95f});
+  scene.cameras.front().fov_deg = 60.0f;
+  Light lamp;
+  lamp.position = {0.5f, 0.6f, -0.5f};
+  scene.lights = {lamp};
+  const auto mean = [&](int depth) {
+    Settings settings = ways().front().settings;
+    settings.spp = 64;
+    settings.indirect = 4;
+    settings.depth = depth;
+    return sum_of(drawn(scene, settings).color).g;
+  };
+  const double free = mean(16);
+  for (const int depth : {2, 5}) EXPECT_NEAR(mean(depth) / free, 1.0, 0.03) << depth;
+}
+
 // KHR_materials_transmission without a volume: no samples are needed to see what a window mirrors.
 TEST(Panes, ThinGlassMirrorsBySchlick) {
   const Material pane = material_from_surface(

@@ -20,7 +20,7 @@ struct Elements {
   int component_type = 0;
 };
 
-// Writes `count` elements' numbers one after the other; integers times `scale`, and then from -1 on.
+// Writes `count` elements' numbers one after the other; integers times `scale`, clamped to -1.
 template <class T, class Out>
 void convert_from(const Elements& from, std::size_t first, std::size_t count, std::size_t width, double scale,
                   Out* to) {

@@ -37,8 +37,10 @@ class MtlLibraries {
 
   // The material's index; -1 and a warning: no file defines the name.
   int find(const std::string& name) {
-    for (const std::string& wanted : {name, std::string(without_comment(name))})
-      if (const auto found = by_name_.find(wanted); found != by_name_.end()) return found->second;
+    const std::string bare(without_comment(name));
+    for (const auto& [names, wanted] :
+         {std::pair(&by_name_, name), {&by_name_, bare}, {&by_bare_name_, bare}})
+      if (const auto found = names->find(wanted); found != names->end()) return found->second;
     loading_.warnings.add(
         {file_.string(), "material '" + name + "'", "materials are in no MTL file", "grey is used"});
     return -1;
@@ -83,14 +85,14 @@ class MtlLibraries {
                              "write d where Tr should make materials transparent"});
     for (MtlMaterial& m : read.materials) {
       by_name_.try_emplace(m.name, as_int(materials.size()));
-      by_name_.try_emplace(std::string(without_comment(m.name)), as_int(materials.size()));
+      by_bare_name_.try_emplace(std::string(without_comment(m.name)), as_int(materials.size()));
       materials.push_back(std::move(m));
     }
   }
 
   const std::filesystem::path& file_;
   Loading& loading_;
-  std::map<std::string, int> by_name_;
+  std::map<std::string, int> by_name_, by_bare_name_;  // with and without a comment behind it
 };
 
 Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading) {

@@ -165,6 +165,7 @@ class ObjReader {
   template <class Take>
   Expected<void> read_numbers(std::string_view line, int least, int most, Kind kind, Take take) {
     std::array<float, 6> values{};
+    bool unfit = false;
     for (given_ = 0; given_ < most; ++given_) {
       const std::string_view word = next_word(line);
       if (given_ >= least && (word.empty() || word.front() == '#')) break;
@@ -174,24 +175,19 @@ class ObjReader {
       if (kind == kVertex && given_ < 3 && value)  // nan
         first_unplaced_ = first_unplaced_ > 0 ? first_unplaced_ : line_;
       else if (value)
-        leave_out_unfit(kind, values);
+        unfit = true;
       else if (word.empty())
         return fail(line_, std::string("a ") + kKindNames[kind] + " has too few numbers");
       else
         return fail(line_, "'" + std::string(word.substr(0, 40)) + "' in a " + kKindNames[kind] +
                                " is not a finite number");
     }
+    if (unfit) {  // white, flat, or the texture's corner
+      std::fill(values.begin() + (kind == kVertex ? 3 : 0), values.end(), kind == kVertex ? 1.0f : 0.0f);
+      lost(kind == kVertex ? "v" : kind == kNormal ? "vn" : "vt", kUnfit, kUnfitLost);
+    }
     take(values.data());
     return {};
-  }
-
-  // A number that is not finite: white, flat, or the texture's corner.
-  void leave_out_unfit(Kind kind, std::array<float, 6>& values) {
-    if (kind == kVertex)
-      values[given_] = 1.0f;
-    else
-      values.fill(0.0f);
-    lost(kind == kVertex ? "v" : kind == kNormal ? "vn" : "vt", kUnfit, kUnfitLost);
   }
 
   Expected<void> read_face(std::string_view line) {

@@ -11,8 +11,8 @@ namespace pinocchio {
 // Fewer rays are not worth sorting.
 inline constexpr std::size_t kLeastSorted = 256;
 
-// Whether neighbouring rays mostly have other keys (RaySorter), so that sorting brings others together.
-// Judged by a sample of the rays.
+// Whether neighbouring rays mostly have different keys (RaySorter): sorted, a packet's rays have more of
+// their way in common. Judged by a sample of the rays.
 [[nodiscard]] bool sorting_pays(const RayColumns& rays, std::size_t n);
 
 // Sorts rays so that neighbours go together: by the octant of their direction, then along a Z curve

@@ -25,7 +25,7 @@ void TileTracer::follow() {
 void TileTracer::follow_diffuse(int bounce_count) {
   std::swap(diffuse_, next_diffuse_);
   counts_.indirect += diffuse_.size;
-  const int generation = bounce_count * (plan_->out.depth + 1);
+  const int generation = generation_of(bounce_count, 0);
   next_diffuse_.make_room(0, extra_columns());
   make_room(diffuse_.size, rays_);
   Bounce step = plan_->further;
@@ -38,11 +38,18 @@ void TileTracer::follow_diffuse(int bounce_count) {
   light_points(step, generation, {&diffuse_, 1}, plan_->further_lights, reflected_.data());
 }
 
+// Each has random numbers of its own. Those that only go straight on have them behind all others.
+int TileTracer::generation_of(int bounce_count, int step_count) const {
+  const int depth = plan_->out.depth;
+  if (step_count <= depth) return bounce_count * (depth + 1) + step_count;
+  return (plan_->out.indirect + 1) * (depth + 1) + bounce_count * kStraightBeyond + step_count - depth - 1;
+}
+
 // Traces generation by generation: all rays of one before the next. The last generations only go straight on.
 void TileTracer::follow_mirrors(int bounce_count) {
   const int most = plan_->out.depth > 0 ? plan_->out.depth + kStraightBeyond : 0;
   for (int step_count = 1; step_count <= most; ++step_count) {
-    const int generation = bounce_count * (plan_->out.depth + 1) + step_count;
+    const int generation = generation_of(bounce_count, step_count);
     const std::size_t mirrored = rays_[kMirrored].size,
                       through =
                           rays_[kRefracted].size + rays_[kStraight].size + rays_[kStraightFromCamera].size;

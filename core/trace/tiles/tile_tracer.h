@@ -47,6 +47,7 @@ class TileTracer {
   void find_visible();
   void light_visible();
   void follow();
+  [[nodiscard]] int generation_of(int bounce_count, int step_count) const;
   void follow_mirrors(int bounce);
   void follow_diffuse(int bounce);
   void see_background(RayQueue& straight);

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include "pinocchio/conversion.h"
 #include "python/src/scene/pickle.h"
@@ -7,7 +8,7 @@
 namespace pinocchio::python {
 namespace {
 
-constexpr double kMost = 1e6, kLeastIor = 1e-3;
+constexpr double kMost = std::numeric_limits<float>::max(), kLeastIor = 1e-3;
 
 Texture texture_of(const Texels& argument) {
   const auto texels = argument.read("texture");
@@ -50,7 +51,10 @@ void bind_material(nb::module_& module) {
             m.emission = emission.read_color("emission");
             m.gloss = number_within(gloss, "gloss", 0.0, kMost);
             m.attenuation_color = attenuation_color.read_color("attenuation_color");
-            m.attenuation_distance = number_within(attenuation_distance, "attenuation_distance", 0.0, kMost);
+            m.attenuation_distance =
+                std::isinf(attenuation_distance)
+                    ? 0.0f  // clear, as glTF says it
+                    : number_within(attenuation_distance, "attenuation_distance", 0.0, kMost);
             m.double_sided = double_sided;
             new (self) TexturedMaterial{
                 m, texture ? std::make_shared<const Texture>(texture_of(*texture)) : nullptr};
@@ -68,7 +72,7 @@ void bind_material(nb::module_& module) {
           "gloss: the exponent of the lobe over which samples (spp) spread mirrored rays. 0: sharp.\n"
           "attenuation_color: the share of light that is left after `attenuation_distance` (scene units) "
           "through glass.\n"
-          "attenuation_distance: 0: the glass is clear.\n"
+          "attenuation_distance: 0 or inf: the glass is clear.\n"
           "double_sided: False: the camera sees through the surface from behind, unless backfaces='draw'. "
           "None: "
           "only with backfaces='cull'.\n"

@@ -100,10 +100,12 @@ glm::mat4 Matrix::read(const std::string& name) const {
                   "; it needs finite numbers");
     result[i % 4][i / 4] = number;
   }
-  if (glm::row(result, 3) != glm::vec4(0, 0, 0, 1))
+  constexpr float kRounding = 1e-5f;
+  const glm::vec4 last(0, 0, 0, 1);
+  if (glm::any(glm::greaterThan(glm::abs(glm::row(result, 3) - last), glm::vec4(kRounding))))
     throw Error(name + " has the last row " + text_of(array[3]) +
                 "; it is (0, 0, 0, 1) of a matrix that places something (is it transposed?)");
-  return result;
+  return glm::row(result, 3, last);
 }
 
 glm::vec3 Three::read_color(const char* name) const {
@@ -117,7 +119,7 @@ nb::dict Dict::read(const std::string& name) const {
   const nb::module_ abc = nb::module_::import_("collections.abc");
   if (!nb::isinstance(source, abc.attr("Mapping")))
     throw Error(name + " is a " + text_of(source.type().attr("__name__")) + "; it is a dict");
-  return nb::steal<nb::dict>(PyObject_CallOneArg(reinterpret_cast<PyObject*>(&PyDict_Type), source.ptr()));
+  return nb::borrow<nb::dict>(nb::module_::import_("builtins").attr("dict")(source));
 }
 
 glm::ivec2 Size::read() const {

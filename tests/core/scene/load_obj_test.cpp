@@ -219,6 +219,17 @@ TEST(LoadObj, CommentsMayEndWithABackslashOrFollowAName) {
                 "newmtl red\nKd 1 0 0\n", &warnings);
   EXPECT_TRUE(warnings.empty()) << warnings[0].message();
   EXPECT_EQ(scene.mesh->material_of(0).diffuse, glm::vec3(1, 0, 0));
+  // A name that is there as it is written goes first.
+  const Scene other = load_text("mtllib test.mtl\n" + kTriangle + "usemtl red\nf 1 2 3\n",
+                                "newmtl red # shiny\nKd 1 0 0\nnewmtl red\nKd 0 1 0\n");
+  EXPECT_EQ(other.mesh->material_of(0).diffuse, glm::vec3(0, 1, 0));
+}
+
+// In time that grows as the text does.
+TEST(LoadObj, ManyLinesAreJoined) {
+  std::string text = kTriangle + "f 1 2 3\ng";
+  for (int i = 0; i < 300000; ++i) text += " \\\n a";
+  EXPECT_EQ(load_text(text + "\n").mesh->triangles.size(), 1u);
 }
 
 TEST(LoadObj, FacesOnVerticesThatAreNoFiniteNumbersAreLeftOut) {

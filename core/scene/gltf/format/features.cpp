@@ -199,7 +199,7 @@ class FeatureAudit {
         if (member(&nodes[i], key) && numbers_member(&nodes[i], key).size() != count)
           lost(place("node", nodes[i], i),
                std::string("its ") + key + " is left out, as it is not " + std::to_string(count) + " numbers",
-               "it may lie elsewhere");
+               "it may be in the wrong place");
   }
 
   void check_material(std::size_t index, const Json& material, const std::string& where) {
