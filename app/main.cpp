@@ -79,7 +79,7 @@ int parse_and_run(int argc, char** argv) {
     return fail(std::string(error.what()) + "; 'pinocchio" + verb + " --help' lists the options", kUsage);
   }
   catch_interrupts();
-  set_thread_warning([](const char* line) { std::fprintf(stderr, "pinocchio: warning: %s\n", line); });
+  set_thread_warning([](const char* line) { print_warning(line); });
   for (const auto& [name, run] : verbs)
     if (program.got_subcommand(name)) return code_after_flush(run_verb(run));
   return kUsage;

@@ -58,6 +58,14 @@ std::string one_line(std::string text) {
   return text;
 }
 
+void print_warning(const std::string& warning) {
+  std::fprintf(stderr, "pinocchio: warning: %s\n", warning.c_str());
+}
+
+void print_warnings(const Warnings& warnings) {
+  for (const Warning& warning : warnings) print_warning(warning.message());
+}
+
 void catch_interrupts() {
   (void)timer_create(CLOCK_MONOTONIC, nullptr, &deadline);  // sends SIGALRM
   struct sigaction action {};

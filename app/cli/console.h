@@ -1,15 +1,20 @@
-// The terminal: interrupts and progress.
+// The terminal: warnings, interrupts and progress.
 #pragma once
 
 #include <cstddef>
 #include <string>
 
+#include "pinocchio/load.h"
 #include "pinocchio/progress.h"
 
 namespace pinocchio::app {
 
 // Replaces line breaks by blanks, as an error is one line.
 [[nodiscard]] std::string one_line(std::string text);
+
+// On stderr, a line each.
+void print_warning(const std::string& warning);
+void print_warnings(const Warnings& warnings);
 
 // From here on SIGINT (Ctrl-C), SIGTERM and SIGHUP cancel run_progress(). Half a second later, or at a second
 // signal, the program removes its part files and ends with kInterrupted: an OpenGL driver does not poll the

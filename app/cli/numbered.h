@@ -9,8 +9,8 @@
 
 namespace pinocchio::app {
 
-// Where the number is in a pattern: the last run of # in the file's name, else the last of two or more in a
-// folder's, so that a folder may be called C#. Empty: there is none.
+// Where a pattern such as "frame-####.exr" has its number: at the last #s of the file's name. If that has
+// none, at the last two or more #s of the folders; a single one there belongs to a name (C#). Empty: nowhere.
 struct NumberPlace {
   std::size_t first = 0, end = 0;
 

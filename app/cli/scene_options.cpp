@@ -23,8 +23,7 @@ Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Prog
       scene = pinocchio::Unexpected(environment.error());
   }
   if (!scene || (!options.quiet && !options.strict))  // warnings may explain why it cannot be read
-    for (const Warning& warning : warnings)
-      std::fprintf(stderr, "pinocchio: warning: %s\n", warning.message().c_str());
+    print_warnings(warnings);
   if (scene && options.strict && !warnings.empty()) {
     const std::size_t more = warnings.size() - 1;
     throw Exit(kBadScene, warnings[0].message() +

@@ -42,8 +42,7 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
   if (any_settings) engine_.open_gl();
   if (!needs_rays_) software_gl_ = engine_.gl_is_software(options.settings);
   if (!options.quiet && !engine_.gl_failure().empty())
-    std::fprintf(stderr, "pinocchio: warning: %s: the CPU draws alone (--mode auto)\n",
-                 one_line(engine_.gl_failure()).c_str());
+    print_warning(one_line(engine_.gl_failure()) + ": the CPU draws alone (--mode auto)");
   Expected<Settings> resolved = resolve(with_usual(options.settings, usual));
   if (!resolved) {
     InputError error = resolved.error();
@@ -56,25 +55,21 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
   }
   settings_ = *resolved;
   if (!options.quiet && !options.plan.empty())  // settings that are given one by one are known
-    for (const std::string& line : losses(settings_, stats_))
-      std::fprintf(stderr, "pinocchio: warning: %s: %s\n", options.plan.c_str(), line.c_str());
+    for (const std::string& line : losses(settings_, stats_)) print_warning(options.plan + ": " + line);
   if (!options.quiet && settings_.background.value.is_transparent() && stats_.blends && !settings_.coverage)
-    std::fprintf(
-        stderr,
-        "pinocchio: warning: the background is transparent, but surfaces that blend have alpha 1: only "
-        "the CPU drawing alone counts what they let through (--mode raytrace)\n");
+    print_warning(
+        "the background is transparent, but surfaces that blend have alpha 1: only the CPU drawing alone "
+        "counts what they let through (--mode raytrace)");
   if (!options.quiet && stats_.studio && !settings_.shadow_catcher.given && settings_.reflects() &&
       settings_.visibility == Processor::gpu && settings_.composite == Processor::cpu)
-    std::fprintf(
-        stderr,
-        "pinocchio: warning: the studio's ground shadow is left out: it travels with mirrored light, "
-        "which design 2 does not send (--design 1)\n");
+    print_warning(
+        "the studio's ground shadow is left out: it travels with mirrored light, which design 2 does not "
+        "send (--design 1)");
   if (!options.quiet && settings_.background_blur > 0.0f &&
       !backdrop_of(scene_, settings_.background).picture)
-    std::fprintf(
-        stderr,
-        "pinocchio: warning: --background-blur changes nothing: neither an environment nor the studio is "
-        "behind the scene (--environment FILE or --background studio)\n");
+    print_warning(
+        "--background-blur changes nothing: neither an environment nor the studio is behind the scene "
+        "(--environment FILE or --background studio)");
   if (!options.quiet && !any_settings) advise(with_usual(options.settings, usual));
   if (scene_.animation)
     poses_.emplace(scene_, &run_progress());

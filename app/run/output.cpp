@@ -167,7 +167,7 @@ std::string inputs_json(const Scene& scene, const DrawOptions& draw, const Outpu
                                {"content", content ? nlohmann::json(*content) : nullptr}});
   };
   for (const std::string& file : scene.source_files) add(file);
-  if (has_studio_light(scene))
+  if (has_studio_sky(scene))
     inputs["studio"] = true;
   else if (scene.environment)
     add(scene.environment->source());

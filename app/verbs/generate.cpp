@@ -28,8 +28,7 @@ int generate(const GenerateOptions& options) {
   const Scene scene = value_or_exit(make_procedural(options.name, procedural), kUsage);
   Warnings warnings;
   save_scene(scene, file, &run_progress(), &warnings);
-  for (const Warning& warning : warnings)
-    std::fprintf(stderr, "pinocchio: warning: %s\n", warning.message().c_str());
+  print_warnings(warnings);
   std::printf("%s: %zu triangles\n", file.c_str(), scene.mesh->triangles.size());
   return kDone;
 }

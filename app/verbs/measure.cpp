@@ -212,6 +212,7 @@ void print_comparison(const std::vector<Measured>& runs, const nlohmann::json& j
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const nlohmann::json& j = json[i];
     const double fps = j["fps"];
+    // Frames transfer equally much; the first ones of a run may be younger than the others.
     const FrameRecord& usual = runs[i].records[runs[i].records.size() / 2];
     std::printf("%-22s %9.1f %9.2f %8d %8.2f %4d %12zu %12zu\n", runs[i].name.c_str(), fps,
                 1e3 / std::max(fps, 1e-9), j["latency"]["frames"].get<int>(),

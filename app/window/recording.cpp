@@ -31,18 +31,6 @@ std::string whole_path(const std::string& file) {
   return unknown ? file : path.string();
 }
 
-// The files that are written beside the scene's.
-std::vector<std::string> files_beside(const std::string& file, const MeshData& mesh) {
-  const std::filesystem::path path(file);
-  const std::string stem = (path.parent_path() / path.stem()).string();
-  if (path.extension() == ".gltf") return {stem + ".bin"};
-  if (path.extension() != ".obj") return {};
-  std::vector<std::string> files{stem + ".mtl"};
-  for (std::size_t i = 0; i < mesh.textures.size(); ++i)
-    files.push_back(stem + "-" + std::to_string(i) + ".png");
-  return files;
-}
-
 }  // namespace
 
 // The environment, where the scene's own file does not hold it. A file without light gets the studio's.
@@ -109,11 +97,16 @@ void Recording::write(const Frame& frame) {
   write_exr(name + ".exr", picture, {.frame = recorded_, .time_s = model_.playback.posed_s});
 }
 
+// The one that `render` begins with.
+Camera Recording::usual_camera() const {
+  return model_.scene.cameras.empty() ? Camera{} : model_.scene.cameras.front();
+}
+
 void Recording::save_camera() {
   const std::string file = file_name({"-camera.json"}) + "-camera.json";
   const Camera camera = model_.camera.camera();
   write_text(file, camera_path_json(camera));
-  const bool is_usual = camera.projection == Projection::perspective;
+  const bool is_usual = camera.projection == usual_camera().projection;
   model_.messages.news(
       whole_path(file) + " written, for --path" +
       (is_usual ? "" : " with --projection " + std::string(name_of(kProjectionNames, camera.projection))));
@@ -150,11 +143,9 @@ std::string Recording::chosen_file(const std::string& extension) const {
   if (place.name.empty()) return file_name({extension}) + extension;
   std::string file = (std::filesystem::path(place.folder) / place.name).string();
   if (!file.ends_with(extension)) file += extension;
-  std::vector<std::string> written = files_beside(file, *model_.scene.mesh);
-  written.insert(written.begin(), file);
-  for (const std::string& one : written)
+  for (const std::filesystem::path& one : saved_files(model_.scene, file))
     if (std::error_code unknown; std::filesystem::exists(one, unknown) && !place.replaces)
-      throw EnvironmentError(one + " exists: choose another name, or tick 'replace files'");
+      throw EnvironmentError(one.string() + " exists: choose another name, or tick 'replace files'");
   return file;
 }
 
@@ -213,7 +204,7 @@ std::string Recording::print_command(const Settings& settings, const DrawOptions
   view.denoised = model_.drawn.denoise;
   view.studio_light = has_studio_sky(model_.scene);
   view.camera = model_.camera.camera();
-  if (!model_.scene.cameras.empty()) view.usual_camera = model_.scene.cameras.front();
+  view.usual_camera = usual_camera();
   view.environment = environment_file(draw);
   view.size = model_.wanted_size();
   view.samples = model_.gathers() ? std::max(model_.samples, 1) : 1;

@@ -37,6 +37,7 @@ class Recording {
   void write_scene(Scene scene, const std::string& file);
   void write(const Frame& frame);
   void save_picture(Action action, const Settings& settings, const std::string& file);
+  [[nodiscard]] Camera usual_camera() const;
   [[nodiscard]] std::string environment_file(const DrawOptions& draw) const;
   [[nodiscard]] std::string file_name(const std::vector<std::string>& extensions) const;
 

@@ -24,7 +24,7 @@ struct ProjectedTriangle {
 
 static_assert(sizeof(ProjectedTriangle) == 48);
 
-// Whether the triangle has an area. Of one without, ProjectedTriangle::from makes one that no ray meets.
+// Whether the triangle has an area. No ray meets one without.
 [[nodiscard]] bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
 }  // namespace pinocchio

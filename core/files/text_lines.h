@@ -1,4 +1,4 @@
-// The lines and words of OBJ and MTL text.
+// The lines and words of OBJ, MTL and STL text.
 #pragma once
 
 #include <algorithm>

@@ -32,7 +32,8 @@ struct ReferenceLight {
 // The share of unpolarised light that a smooth dielectric mirrors (Born and Wolf, Principles of
 // Optics, 1.5.2). eta: the index on the far side divided by the index on the near side.
 [[nodiscard]] double reference_fresnel(double cos_in, double eta);
-// What glass mirrors, by colour, and the share of light that its surface keeps from what is below.
+// What a glass surface mirrors of the light, by colour, with a metal's part. `kept`: what the glass alone
+// mirrors, in its brightest colour; the rest goes through, times the transmittance.
 struct ReferenceGlass {
   glm::dvec3 mirrored;
   double kept;

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/files/loading.h"
 #include "pinocchio/save.h"
@@ -15,22 +16,29 @@
 
 namespace pinocchio {
 
+using SavedFiles = std::vector<std::filesystem::path>;
+
 // A format's room defines one in its load.cpp, in the namespace room and by the room's name.
 struct SceneFormat {
   std::string_view name;
   std::array<std::string_view, 2> extensions;  // in lower case; empty: none
   Expected<Scene> (*load)(const std::filesystem::path&, Loading&);
   void (*save)(const Scene&, const std::filesystem::path&, Progress*, Warnings*);  // null: it is only read
+  SavedFiles (*saved_files)(const Scene&, const std::filesystem::path&);           // null: the one file
 };
+
+// The files of the formats that write several.
+[[nodiscard]] SavedFiles gltf_files(const Scene& scene, const std::filesystem::path& file);
+[[nodiscard]] SavedFiles obj_files(const Scene& scene, const std::filesystem::path& file);
 
 // In the order of the rooms in core/CMakeLists.txt. A path without an extension names the first of these
 // files that exists.
 [[nodiscard]] std::span<const std::reference_wrapper<const SceneFormat>> scene_formats();
 
-// The warnings about numbers of a vertex that are NaN or infinite, for every format; of its place:
+// The warnings of all formats about vertices with NaN or infinite numbers, and what is lost. For positions:
 inline constexpr const char* kUnplaced = "faces on vertices that are no finite numbers are left out";
 inline constexpr const char* kNotDrawn = "they are not drawn";
-// Of the others:
+// For normals, colours and texture coordinates:
 inline constexpr const char* kUnfit =
     "normals, colours and texture coordinates that are no finite numbers are left out";
 inline constexpr const char* kUnfitLost = "faces are flat, white or of one colour there";

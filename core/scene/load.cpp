@@ -170,7 +170,7 @@ Expected<void> check_numbers(const std::string& file, const Mesh& mesh) {
   return check("the tangent of vertex ", mesh.tangents.size(), all_of(mesh.tangents));
 }
 
-// What its materials and triangles name is there.
+// An error if a material or triangle refers to something that the mesh lacks.
 Expected<void> check_references(const std::string& file, const Mesh& mesh) {
   for (const Material& m : mesh.materials)
     if (m.maps >= as_int(mesh.maps.size()))

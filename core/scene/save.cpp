@@ -14,4 +14,9 @@ void save_scene(const Scene& scene, const std::filesystem::path& file, Progress*
   find_scene_format(file)->save(scene, file, progress, warnings);
 }
 
+std::vector<std::filesystem::path> saved_files(const Scene& scene, const std::filesystem::path& file) {
+  const SceneFormat* format = find_scene_format(file);
+  return format && format->saved_files ? format->saved_files(scene, file) : SavedFiles{file};
+}
+
 }  // namespace pinocchio

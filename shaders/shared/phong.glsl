@@ -37,7 +37,7 @@ SHARED real cone_share(LightParams light, vec3 to_light) {
 // What a light's range leaves of its radiance at a distance: nothing beyond the range. With inverse-square falloff the
 // radiance fades before, by the window that KHR_lights_punctual recommends.
 SHARED vec3 within_range(LightParams light, real distance, vec3 radiance) {
-  if (light.range > 1e30f) return radiance;
+  if (light.range > 1e30f) return radiance;  // no range
   vec3 left = pick(distance > light.range, vec3(0.0f), radiance);
   if (!light.inverse_square) return left;
   real q = distance / light.range;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "pinocchio/load.h"
 #include "pinocchio/progress.h"
@@ -17,6 +18,11 @@ namespace pinocchio {
 // where there is no memory; existing files then stay. Phase "write".
 void save_scene(const Scene& scene, const std::filesystem::path& file, Progress* progress = nullptr,
                 Warnings* warnings = nullptr);
+
+// The files that save_scene may write: `file`, and those beside it. Only `file` where save_scene throws for
+// its extension.
+[[nodiscard]] std::vector<std::filesystem::path> saved_files(const Scene& scene,
+                                                             const std::filesystem::path& file);
 
 // The writers that save_scene calls.
 void save_gltf(const Scene& scene, const std::filesystem::path& file, Progress* progress = nullptr,

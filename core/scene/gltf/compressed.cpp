@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "core/scene/gltf/buffers.h"
@@ -17,47 +18,73 @@
 namespace pinocchio {
 namespace {
 
+// What an accessor's numbers are.
+struct Numbers {
+  int component_type = kGltfFloat, components = 1;
+  bool normalized = false;
+};
+
 // Appends an accessor on bytes of its own, elements one after the other.
-int add_accessor(GltfFile& file, FileBytes bytes, int component_type, int components, std::size_t count) {
+int add_accessor(GltfFile& file, FileBytes bytes, const Numbers& numbers, std::size_t count) {
   file.buffer_views.push_back({as_int(file.buffers.size()), 0, bytes.size()});
   file.add_buffer(std::move(bytes));
   GltfAccessor& accessor = file.accessors.emplace_back();
   accessor.buffer_view = as_int(file.buffer_views.size() - 1);
   accessor.count = count;
-  accessor.component_type = component_type;
-  accessor.components = components;
+  accessor.component_type = numbers.component_type;
+  accessor.components = numbers.components;
+  accessor.normalized = numbers.normalized;
   return as_int(file.accessors.size() - 1);
 }
 
-// The factor that makes numbers from 0 to 1, or -1 to 1, of the integers of a normalized accessor. Encoders
-// leave Draco's own flag for it unset.
-float factor_of(const GltfAccessor& accessor, const draco::PointAttribute& attribute) {
-  if (!accessor.normalized || attribute.normalized()) return 1.0f;
-  switch (attribute.data_type()) {
-    case draco::DT_INT8:
-      return 1.0f / 127.0f;
-    case draco::DT_UINT8:
-      return 1.0f / 255.0f;
-    case draco::DT_INT16:
-      return 1.0f / 32767.0f;
-    case draco::DT_UINT16:
-      return 1.0f / 65535.0f;
-    default:
-      return 1.0f;
-  }
+// Draco converts integers that its own flag says are normalized. Encoders leave that unset: then the accessor
+// normalizes them, as it does without Draco.
+Numbers numbers_of(const GltfAccessor& own, const draco::PointAttribute& attribute) {
+  const bool integers = own.component_type <= kGltfUnsignedShort && IsDataTypeIntegral(attribute.data_type());
+  if (!own.normalized || !integers || attribute.normalized()) return {kGltfFloat, own.components, false};
+  return {own.component_type, own.components, true};
 }
 
-template <int kComponents>
-FileBytes values_of(const draco::PointAttribute& attribute, std::size_t points, float factor) {
-  FileBytes bytes(points * kComponents * sizeof(float));
+template <class Number, int kComponents>
+FileBytes values_of(const draco::PointAttribute& attribute, std::size_t points) {
+  FileBytes bytes(points * kComponents * sizeof(Number));
   for (std::size_t i = 0; i < points; ++i) {
-    float values[kComponents] = {};
-    attribute.ConvertValue<float, kComponents>(attribute.mapped_index(draco::PointIndex(as_uint32(i))),
-                                               values);
-    for (float& value : values) value = std::max(value * factor, factor < 1.0f ? -1.0f : value);
+    Number values[kComponents] = {};
+    attribute.ConvertValue<Number, kComponents>(attribute.mapped_index(draco::PointIndex(as_uint32(i))),
+                                                values);
     std::memcpy(bytes.data() + i * sizeof values, values, sizeof values);
   }
   return bytes;
+}
+
+template <class Number>
+FileBytes values_of(const draco::PointAttribute& attribute, std::size_t points, int components) {
+  switch (components) {
+    case 2:
+      return values_of<Number, 2>(attribute, points);
+    case 3:
+      return values_of<Number, 3>(attribute, points);
+    case 4:
+      return values_of<Number, 4>(attribute, points);
+    default:
+      return {};
+  }
+}
+
+// Empty: no attribute of vertices has so many components.
+FileBytes values_of(const draco::PointAttribute& attribute, std::size_t points, const Numbers& numbers) {
+  switch (numbers.component_type) {
+    case kGltfByte:
+      return values_of<std::int8_t>(attribute, points, numbers.components);
+    case kGltfUnsignedByte:
+      return values_of<std::uint8_t>(attribute, points, numbers.components);
+    case kGltfShort:
+      return values_of<std::int16_t>(attribute, points, numbers.components);
+    case kGltfUnsignedShort:
+      return values_of<std::uint16_t>(attribute, points, numbers.components);
+    default:
+      return values_of<float>(attribute, points, numbers.components);
+  }
 }
 
 class DracoPrimitive {
@@ -101,16 +128,10 @@ class DracoPrimitive {
       const draco::PointAttribute* attribute = id >= 0 ? mesh.GetAttributeByUniqueId(as_uint32(id)) : nullptr;
       if (!attribute || !in_range(accessor, file_.accessors))
         return file_.error(std::string(kWhose) + " lacks its attribute " + name);
-      const GltfAccessor& own = item_of(file_.accessors, accessor);
-      const int components = own.components;
+      const Numbers numbers = numbers_of(item_of(file_.accessors, accessor), *attribute);
       const std::size_t points = mesh.num_points();
-      const float factor = factor_of(own, *attribute);
-      FileBytes values = components == 2   ? values_of<2>(*attribute, points, factor)
-                         : components == 3 ? values_of<3>(*attribute, points, factor)
-                         : components == 4 ? values_of<4>(*attribute, points, factor)
-                                           : FileBytes();
-      if (values.size() > 0)
-        accessor = add_accessor(file_, std::move(values), kGltfFloat, components, points);
+      FileBytes values = values_of(*attribute, points, numbers);
+      if (values.size() > 0) accessor = add_accessor(file_, std::move(values), numbers, points);
     }
     FileBytes indices(std::size_t{mesh.num_faces()} * sizeof(glm::uvec3));
     for (draco::FaceIndex f(0); f < mesh.num_faces(); ++f) {
@@ -119,8 +140,8 @@ class DracoPrimitive {
       std::memcpy(indices.data() + f.value() * sizeof corners, &corners, sizeof corners);
     }
     primitive_.mode = kGltfTriangles;
-    primitive_.indices =
-        add_accessor(file_, std::move(indices), kGltfUnsignedInt, 1, std::size_t{3} * mesh.num_faces());
+    primitive_.indices = add_accessor(file_, std::move(indices), {kGltfUnsignedInt, 1, false},
+                                      std::size_t{3} * mesh.num_faces());
     return {};
   }
 

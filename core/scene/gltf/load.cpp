@@ -332,7 +332,7 @@ Expected<Scene> load_gltf(const std::filesystem::path& path, Loading& loading) {
 }  // namespace
 
 namespace room {
-extern const SceneFormat gltf{"glTF", {".gltf", ".glb"}, load_gltf, save_gltf};
+extern const SceneFormat gltf{"glTF", {".gltf", ".glb"}, load_gltf, save_gltf, gltf_files};
 }  // namespace room
 
 }  // namespace pinocchio

@@ -226,7 +226,7 @@ class MeshPlacer {
   // What no primitive has yet stays empty.
   template <class T>
   Expected<void> append(int accessor, std::size_t first, std::size_t count, const T& none,
-                        std::vector<T>& to) const {
+                        std::vector<T>& to) {
     if (accessor < 0 && to.empty()) return {};
     resize_large(to, first, none);
     if (accessor < 0) {
@@ -259,7 +259,7 @@ class MeshPlacer {
 
   // Puts `none` in place of values from `first` on that are not finite.
   template <class T>
-  void replace_unfit(std::vector<T>& values, std::size_t first, const T& none) const {
+  void replace_unfit(std::vector<T>& values, std::size_t first, const T& none) {
     for_each_part(values.size() - first, kPlacedAtOnce, [&](std::size_t begin, std::size_t end) {
       std::size_t unfit = 0;
       for (std::size_t i = first + begin; i < first + end; ++i)
@@ -299,7 +299,7 @@ class MeshPlacer {
   std::map<Attributes, std::uint32_t> placed_;
   bool has_void_normals_ = false, is_partly_smooth_ = false, has_unplaced_ = false;
   std::size_t first_vertex_ = mesh_.positions.size(), unplaced_ = 0;
-  mutable std::atomic<std::size_t> unfit_ = 0;
+  std::atomic<std::size_t> unfit_ = 0;
 };
 
 }  // namespace

@@ -123,7 +123,7 @@ Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading) {
 }  // namespace
 
 namespace room {
-extern const SceneFormat obj{"OBJ", {".obj"}, load_obj, save_obj};
+extern const SceneFormat obj{"OBJ", {".obj"}, load_obj, save_obj, obj_files};
 }  // namespace room
 
 }  // namespace pinocchio

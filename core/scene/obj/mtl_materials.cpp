@@ -74,15 +74,15 @@ void make_normals(Texture& texture, float bump) {
     }
 }
 
-void make_luminance_alpha(Texture& texture) {
-  for (glm::u8vec4& t : texture.texels.pixels())
-    t.a = static_cast<std::uint8_t>(luminance(glm::vec3(t.r, t.g, t.b)) + 0.5f);
-}
-
-// The channel that holds alpha: the requested one, else the image's alpha if it has one, else red.
-int alpha_channel(const Texture& texture, char asked) {
+// The channel that holds alpha: the requested one, else the image's alpha if it has one, else red. Luminance,
+// which no channel holds, is written over alpha.
+int alpha_channel(Texture& texture, char asked) {
   constexpr std::string_view kChannels = "rgbm";
-  if (asked == 'l') return 3;  // make_luminance_alpha
+  if (asked == 'l') {
+    for (glm::u8vec4& t : texture.texels.pixels())
+      t.a = static_cast<std::uint8_t>(luminance(glm::vec3(t.r, t.g, t.b)) + 0.5f);
+    return 3;
+  }
   if (const std::size_t i = kChannels.find(asked); i != std::string_view::npos) return as_int(i);
   const bool has_alpha = std::any_of(texture.texels.pixels().begin(), texture.texels.pixels().end(),
                                      [](const glm::u8vec4& t) { return t.a != 255; });
@@ -114,7 +114,6 @@ MtlMaterials::Loaded MtlMaterials::load(const MtlMaterial& m, const MtlTexture& 
                              "its texture " + texture.file + " is damaged: " + image->damage,
                              "part of it is missing"});
     Texture& texels = image->texture;
-    if (kind == Kind::alpha && texture.channel == 'l') make_luminance_alpha(texels);
     if (kind == Kind::alpha) result.channel = alpha_channel(texels, texture.channel);
     if (kind == Kind::bump && is_grey(texels))
       make_normals(texels, texture.bump);  // a coloured image is a normal map already

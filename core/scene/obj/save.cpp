@@ -6,6 +6,7 @@
 #include "core/files/atomic_file.h"
 #include "core/image/codecs/png.h"
 #include "core/image/tonemap.h"
+#include "core/scene/formats.h"
 #include "pinocchio/save.h"
 
 namespace pinocchio {
@@ -29,6 +30,14 @@ std::string material_name(std::size_t i, const Material& m) {
   for (char& c : name)
     if (c == ' ' || c == '\t') c = '_';
   return std::to_string(i) + "_" + name;  // MTL identifies materials by name alone
+}
+
+std::filesystem::path mtl_file(std::filesystem::path file) {
+  return file.replace_extension(".mtl");
+}
+
+std::filesystem::path texture_file(const std::filesystem::path& file, std::size_t texture) {
+  return file.parent_path() / (file.stem().string() + "-" + std::to_string(texture) + ".png");
 }
 
 // The texts of both files, and the textures saved beside them.
@@ -143,7 +152,7 @@ class ObjWriter {
     if (use.nearest) lost("textures without interpolation are interpolated", "their texels are blurred");
     if (use.wrap_u != use.wrap_v || use.wrap_u == Wrap::mirror)
       lost("the wrap mode of a texture is left out", "it is repeated there");
-    const std::string name = file_.stem().string() + "-" + std::to_string(use.texture) + ".png";
+    const std::string name = texture_file(file_, as_size(use.texture)).filename().string();
     texture_files_.try_emplace(use.texture, name);
     text += keyword + std::string(option);
     if (t[0].x != 1.0f || t[1].y != 1.0f) text += " -s " + number(t[0].x) + " " + number(t[1].y) + " 1";
@@ -200,8 +209,7 @@ class ObjWriter {
 }  // namespace
 
 void save_obj(const Scene& scene, const std::filesystem::path& file, Progress* progress, Warnings* warnings) {
-  std::filesystem::path mtl = file;
-  mtl.replace_extension(".mtl");
+  const std::filesystem::path mtl = mtl_file(file);
   check_writable(mtl);
   Warnings unheard;
   Warnings& heard = warnings ? *warnings : unheard;
@@ -213,6 +221,12 @@ void save_obj(const Scene& scene, const std::filesystem::path& file, Progress* p
     writer.write_textures();
     write_text(mtl, materials);
   });
+}
+
+SavedFiles obj_files(const Scene& scene, const std::filesystem::path& file) {
+  SavedFiles files{file, mtl_file(file)};
+  for (std::size_t i = 0; i < scene.mesh->textures.size(); ++i) files.push_back(texture_file(file, i));
+  return files;
 }
 
 }  // namespace pinocchio

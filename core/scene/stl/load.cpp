@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/files/input_file.h"
+#include "core/files/text_lines.h"
 #include "core/math/finite.h"
 #include "core/scene/formats.h"
 #include "pinocchio/conversion.h"
@@ -34,33 +35,28 @@ float float_at(const char* bytes) {
   return value;
 }
 
-// The words of a text, whatever separates them.
+// The words of all lines, one after the other.
 class Words {
  public:
-  explicit Words(std::string_view text) : rest_(text) {}
+  explicit Words(std::string_view text) : lines_(text) {}
 
   // Empty at the end.
   std::string_view next() {
-    std::size_t begin = 0;
-    for (; begin < rest_.size() && is_blank(rest_[begin]); ++begin)
-      line_ +=
-          rest_[begin] == '\n' || (rest_[begin] == '\r' && !rest_.substr(begin).starts_with("\r\n")) ? 1 : 0;
-    std::size_t end = begin;
-    while (end < rest_.size() && !is_blank(rest_[end])) ++end;
-    const std::string_view word = rest_.substr(begin, end - begin);
-    rest_.remove_prefix(end);
+    std::string_view word = next_word(line_);
+    while (word.empty() && lines_.next()) {
+      line_ = lines_.line();
+      word = next_word(line_);
+    }
     return word;
   }
-  [[nodiscard]] int line() const { return line_; }  // of the last word, from 1
-  // The rest of the last word's line.
-  [[nodiscard]] std::string_view rest_of_line() const { return rest_.substr(0, rest_.find_first_of("\r\n")); }
-  void skip_line() { rest_.remove_prefix(rest_of_line().size()); }
+  [[nodiscard]] int line() const { return lines_.number(); }  // of the last word, from 1
+  // What follows the last word on its line.
+  [[nodiscard]] std::string_view rest_of_line() const { return line_; }
+  void skip_line() { line_ = {}; }
 
  private:
-  static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
-  std::string_view rest_;
-  int line_ = 1;
+  TextLines lines_;
+  std::string_view line_;
 };
 
 bool is_word(std::string_view word, std::string_view wanted) {
@@ -169,8 +165,7 @@ class StlReader {
   }
 
   static bool has_facet(std::string_view line) {
-    Words words(line);
-    for (std::string_view word; !(word = words.next()).empty();)
+    for (std::string_view word; !(word = next_word(line)).empty();)
       if (is_word(word, "facet")) return true;
     return false;
   }
@@ -212,7 +207,7 @@ Expected<Scene> load_stl(const std::filesystem::path& path, Loading& loading) {
 }  // namespace
 
 namespace room {
-extern const SceneFormat stl{"STL", {".stl"}, load_stl, nullptr};
+extern const SceneFormat stl{"STL", {".stl"}, load_stl, nullptr, nullptr};
 }  // namespace room
 
 }  // namespace pinocchio

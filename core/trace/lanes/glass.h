@@ -15,8 +15,7 @@ namespace {
 // the critical angle where the bent ray is not. Thin walls of glTF's model mirror by Schlick's formula.
 inline Vec share_straight_on(const LaneSurface& s, const LaneMaterial& m) {
   const Float one(1.0f), cosine = clamp(dot(s.n_shading, s.to_viewer), 0.0f, 1.0f);
-  const Mask thin = (m.ior == one) & Mask::from_bits(m.microfacet);
-  return m.transmittance * (one - glass_mirror(m, thin, cosine, m.ior).kept);
+  return m.transmittance * (one - glass_mirror(m, cosine, m.ior).kept);
 }
 
 // The share of light that the surfaces do not stop: beside a surface that blends, and through glass.

@@ -60,22 +60,28 @@ inline Float fresnel_dielectric(Float cos_in, Float eta) {
   return select(one <= sin2_out, one, Float(0.5f) * (parallel * parallel + perpendicular * perpendicular));
 }
 
-// What glass mirrors, and the share of light that its surface keeps from what is below.
+// What a glass surface mirrors of the light, by colour, with a metal's part. `kept`: what the glass alone
+// mirrors, in its brightest colour; the rest goes through, times the transmittance.
 struct GlassMirror {
   Vec mirrored;
   Float kept;
 };
 
+// Walls of glTF's model that do not bend light.
+inline Mask is_thin(const LaneMaterial& m) {
+  return Mask::from_bits(m.microfacet) & (m.ior == Float(1.0f));
+}
+
 // By Fresnel's equations; of glTF's model from the surface's F0 to its F90 (KHR_materials_specular, and a
 // metal's part) as they rise from ((ior - 1) / (ior + 1))^2 to 1. Thin walls mirror by Schlick's formula.
-inline GlassMirror glass_mirror(const LaneMaterial& m, Mask thin, Float cosine, Float eta) {
+inline GlassMirror glass_mirror(const LaneMaterial& m, Float cosine, Float eta) {
   const Float zero(0.0f), one(1.0f), fresnel = fresnel_dielectric(cosine, eta);
   if (m.microfacet == 0) return {Vec(fresnel), fresnel};
   const Mask gltf = Mask::from_bits(m.microfacet);
   const Float root = (m.ior - one) / (m.ior + one), f0 = root * root;
   const Float away = one - cosine, away2 = away * away;
   const Float rise =
-      select(thin, away2 * away2 * away, max(fresnel - f0, zero) / max(one - f0, Float(1e-6f)));
+      select(is_thin(m), away2 * away2 * away, max(fresnel - f0, zero) / max(one - f0, Float(1e-6f)));
   const auto risen = [&](Float from, Float to) { return select(gltf, from + (to - from) * rise, fresnel); };
   return {Vec(risen(m.specular.x, m.grazing), risen(m.specular.y, m.grazing), risen(m.specular.z, m.grazing)),
           risen(m.layer.x, m.layer.y)};
@@ -161,7 +167,6 @@ template <bool kSampled>
   Float cos_in = clamp(dot(s.n_shading, s.to_viewer), 0.0f, 1.0f), left = one;
   Vec through = refracted(s, eta), direction = mirrored(s);
   Mask mirrors = lanes;
-  const Mask thin = lanes & Mask::from_bits(m.microfacet) & (m.ior == one);
   if constexpr (kSampled) {
     if ((m.glossy & lanes.bits()) != 0 && bounce.options->glossy == Glossy::sampled)
       direction = spread(s, direction, m.gloss,
@@ -170,7 +175,7 @@ template <bool kSampled>
     if (rough.bits() != 0) {
       cos_in = select(rough, clamp(dot(lobe.facet, s.to_viewer), 0.0f, 1.0f), cos_in);
       const Vec passed = lobe.direction - s.n_shading * (two * dot(s.n_shading, lobe.direction));
-      const Vec bent = select(thin, passed, refract(-s.to_viewer, lobe.facet, one / eta));
+      const Vec bent = select(is_thin(m), passed, refract(-s.to_viewer, lobe.facet, one / eta));
       through = select(rough, select(dot(bent, s.n_geometric) < zero, bent, Vec(zero)), through);
       direction = select(rough, lobe.direction, direction);
       left = select(rough, lobe.unshadowed, left);
@@ -178,7 +183,7 @@ template <bool kSampled>
   }
   // Where the two normals disagree there may be no way through although Fresnel has a share for it.
   const Mask all = through == Vec(zero);
-  const GlassMirror mirror = glass_mirror(m, thin, cos_in, eta);
+  const GlassMirror mirror = glass_mirror(m, cos_in, eta);
   const Vec mirror_share = select(all, Vec(one), mirror.mirrored);
   // Rays through glass find what shadow rays do only where these pass glass.
   const Float found_through_glass = bounce.options->glass_shadows == GlassShadows::tinted ? s.density : zero;

@@ -253,6 +253,10 @@ void append_chunk(std::string& to, const char* type, const std::string& data, ch
   to.append(bytes - data.size(), padding);
 }
 
+std::filesystem::path binary_file(std::filesystem::path file) {
+  return file.replace_extension(".bin");
+}
+
 std::string glb_of(GltfWriter& writer, const std::filesystem::path& file) {
   const std::string json = text_of(writer.finish(""), -1);
   const std::optional<std::uint64_t> bytes = glb_bytes(json.size(), writer.binary().size());
@@ -280,12 +284,16 @@ void save_gltf(const Scene& scene, const std::filesystem::path& file, Progress* 
     write_text(file, glb_of(writer, file), progress);
     return;
   }
-  std::filesystem::path binary = file;
-  binary.replace_extension(".bin");
+  const std::filesystem::path binary = binary_file(file);
   check_writable(binary);
   const std::string json = text_of(writer.finish(binary.filename().string()), 1) + "\n";
   // Both are whole before either gets its name.
   write_text(file, json, nullptr, [&] { write_text(binary, writer.binary(), progress); });
+}
+
+SavedFiles gltf_files(const Scene&, const std::filesystem::path& file) {
+  if (lower_extension(file) == ".glb") return {file};
+  return {file, binary_file(file)};
 }
 
 }  // namespace pinocchio
