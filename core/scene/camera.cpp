@@ -29,7 +29,7 @@ Expected<void> check_camera(const Camera& camera) {
                            : "the camera's field of view is not between 0 and 180 degrees",
                 "choose one in between");
   if (!(camera.height > 0.0f && camera.height <= kFarthest))
-    return fail("the camera's height is not above 0, or more than 1e9", "choose one in between");
+    return fail("the camera's height is not between 0 and 1e9", "choose one in between");
   return {};
 }
 

@@ -61,7 +61,7 @@ class ObjReader {
                                  std::to_string(count(kind));
         if (kind == kVertex) return fail(highest_[kind].line, what);
         warnings_.add({file_, "line " + std::to_string(highest_[kind].line), what,
-                       kind == kNormal ? "faces are flat or smooth as without it"
+                       kind == kNormal ? "faces are shaded as without normals"
                                        : "its texture has one colour there"});
         leave_out_unknown(kind);
       }
@@ -246,7 +246,7 @@ class ObjReader {
       const std::optional<long long> index = number<long long>(word);
       if (index == 0 && kind != kVertex) {
         lost("f", std::string("the index 0 of a ") + kKindNames[kind] + " is left out: they count from 1",
-             kind == kNormal ? "faces are flat or smooth as without it" : "its texture has one colour there");
+             kind == kNormal ? "faces are shaded as without normals" : "its texture has one colour there");
         continue;
       }
       if (!index || *index == 0 || *index < -count(kind) || *index > std::numeric_limits<int>::max())

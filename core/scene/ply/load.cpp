@@ -73,6 +73,7 @@ class PlyBuilder {
       if (!read) return Unexpected(read.error());
     }
     if (const Expected<void> whole = check_rest(); !whole) return Unexpected(whole.error());
+    leave_out_unfit();
     if (!faces_seen_ && !mesh_.positions.empty())
       if (const Expected<void> drawn = points(); !drawn) return Unexpected(drawn.error());
     if (texture_) lost("comment TextureFile", "its texture is left out", "there are no texture coordinates");
@@ -94,6 +95,21 @@ class PlyBuilder {
 
   void lost(const std::string& where, const std::string& what, const std::string& loss) {
     loading_.warnings.add({path_.string(), where, what, loss});
+  }
+
+  void leave_out_unfit() {
+    std::size_t unfit = 0;
+    const auto replace = [&unfit]<class T>(std::vector<T>& values, const T& none) {
+      for (T& value : values)
+        if (!is_finite(value)) {
+          value = none;
+          ++unfit;
+        }
+    };
+    replace(mesh_.normals, glm::vec3(0.0f));
+    replace(mesh_.colors, glm::vec4(1.0f));
+    replace(mesh_.texcoords, glm::vec2(0.0f));
+    if (unfit > 0) loading_.warnings.add({path_.string(), "element vertex", kUnfit, kUnfitLost, unfit});
   }
 
   template <class Take>

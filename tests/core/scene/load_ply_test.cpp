@@ -97,6 +97,24 @@ TEST(LoadPly, FacesOnVerticesThatAreNoFiniteNumbersAreLeftOut) {
             std::string::npos);
 }
 
+TEST(LoadPly, OtherNumbersThatAreNotFiniteAreLeftOut) {
+  Warnings warnings;
+  const Expected<Scene> scene = load_text(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float nx\nproperty float ny\nproperty float nz\n"
+      "property float red\nproperty float green\nproperty float blue\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0 nan 0 1 0 0 0\n1 0 0 0 0 1 inf 0 0\n0 1 0 0 0 1 0 0 0\n3 0 1 2\n",
+      &warnings);
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_EQ(scene->mesh->normals[0], glm::vec3(0.0f));
+  EXPECT_EQ(scene->mesh->normals[1], glm::vec3(0, 0, 1));
+  EXPECT_EQ(scene->mesh->colors[1], glm::vec4(1.0f));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings.begin()->message().find("are left out (and in 1 more place)"), std::string::npos)
+      << warnings.begin()->message();
+}
+
 TEST(LoadPly, FacesMayHaveColors) {
   std::string header = kHeader.substr(0, kHeader.find("property uchar red")) +
                        "element face 3\nproperty list uchar int vertex_indices\nproperty uchar red\n"
