@@ -110,6 +110,8 @@ Expected<void> PlyFile::read_header_line(std::string_view line, bool& ended) {
   } else if (word == "element") {
     PlyElement element;
     element.name = next_word(line);
+    if (std::ranges::find(elements_, element.name, &PlyElement::name) != elements_.end())
+      return error("its header has two elements called " + element.name);
     const std::string_view count = next_word(line);
     const auto [end, failure] = std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (failure != std::errc() || end != count.data() + count.size() || element.count > 0xffffffffu)
