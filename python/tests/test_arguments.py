@@ -37,8 +37,8 @@ def node_scene():
         (lambda: pn.Scene(VERTICES, TRIANGLES, normals=VERTICES[1:]), "normals has 3 rows; it needs one for each vertex"),
         (lambda: pn.Scene(VERTICES, TRIANGLES, ambient=(1, 1)), r"ambient has the shape \(2,\); it is an array \(3,\)"),
         (lambda: pn.Scene(VERTICES, TRIANGLES, lights=["sun"]), r"lights\[0\] is a str; it must be a Light"),
-        (lambda: pn.Scene(VERTICES * numpy.nan, TRIANGLES), "not finite|not a number|finite"),
-        (lambda: pn.Scene(VERTICES, TRIANGLES, normals=numpy.full((4, 3), numpy.inf)), "normals holds (nan|inf|-inf) in row 0; it needs"),
+        (lambda: pn.Scene(VERTICES * numpy.nan, TRIANGLES), "vertices holds nan in row 0; it needs finite numbers"),
+        (lambda: pn.Scene(VERTICES, TRIANGLES, normals=numpy.full((4, 3), numpy.inf)), "normals holds inf in row 0; it needs finite numbers"),
         (lambda: pn.Scene(VERTICES, TRIANGLES, colors=[[0, numpy.nan, 0]] * 2), "colors holds nan; it needs finite numbers"),
         (lambda: pn.Scene(VERTICES, TRIANGLES, colors=[[0.5, -1, 0]] * 4), "colors holds -1.0; it needs finite numbers from 0 on"),
         (lambda: pn.Scene(VERTICES, TRIANGLES, colors=[[0, 200, 0]] * 4), "colors holds whole numbers above 1; it is linear"),
@@ -107,7 +107,7 @@ def test_a_wrong_argument_is_named(call, says):
     assert "incompatible function arguments" not in str(caught.value) and "\n" not in str(caught.value)
 
 
-def test_pictures_that_cannot_be_written_to_are_compared():
+def test_compare_takes_arrays_of_any_layout_and_float_type():
     picture = numpy.linspace(0, 1, 4 * 4 * 3).reshape(4, 4, 3)
     for same in (picture.astype(">f4"), numpy.broadcast_to(picture, (4, 4, 3)), picture.tolist(), picture.astype("f2")):
         assert pn.compare(picture.astype("f4"), same)["max"] < 1e-3
@@ -140,7 +140,11 @@ def test_a_mapping_that_fails_says_why():
 
 def test_glass_without_a_distance_is_clear():
     assert pn.Material(attenuation_distance=numpy.inf).attenuation_distance == 0
-    assert pn.Material(attenuation_distance=5e6, shininess=2e6).attenuation_distance == 5e6
+
+
+def test_large_material_numbers_are_kept():
+    large = pn.Material(attenuation_distance=5e6, shininess=2e6)
+    assert (large.attenuation_distance, large.shininess) == (5e6, 2e6)
 
 
 def test_a_background_may_be_arrays_without_axes():

@@ -3,6 +3,7 @@
 
 #include "bench/one_ray/passes.h"
 #include "core/image/tonemap.h"
+#include "core/reference/reference.h"
 #include "core/trace/view/view_params.h"
 #include "tests/support/draw.h"
 #include "tests/support/shade.h"
@@ -286,33 +287,48 @@ TEST(NearPlane, HidesNothingNearTheEye) {
   }
 }
 
-// KHR_lights_punctual's window: 1 - (distance / range)^4, for lights of every size.
+// KHR_lights_punctual's window for inverse-square falloff, 1 - (distance / range)^4: points, balls and
+// rectangles, by the tracer, the GPU and the reference.
 TEST(Lights, FadeToNothingAtTheirRange) {
-  const auto brightness = [](float range, float radius, Light::Falloff falloff) {
+  Light point = point_light({-3, 2, 3}, false);
+  point.intensity = 4.0f;
+  Light ball = point, rectangle = point;
+  ball.radius = 0.01f;
+  rectangle.kind = Light::Kind::rectangle;
+  rectangle.edge_u = {0.02f, 0, 0};
+  rectangle.edge_v = {0, 0, 0.02f};
+  // mode: "reference", or one of `--mode`.
+  const auto brightness = [](std::string_view mode, Light light, float range, Light::Falloff falloff) {
     Scene scene = plate_over_floor();
-    Light bulb = point_light({-3, 2, 3}, false);
-    bulb.falloff = falloff;
-    bulb.intensity = 4.0f;
-    bulb.range = range;
-    bulb.radius = radius;
-    scene.lights = {bulb};
+    light.falloff = falloff;
+    light.range = range;
+    scene.lights = {light};
     scene.ambient_light = glm::vec3(0.0f);
     Camera& camera = scene.cameras.front();
     camera.eye = {-3, 8, 3.01f};
     camera.target = {-3, 0, 3};
     camera.fov_deg = 1.0f;
-    const FrameResult picture = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = {8, 8}});
-    return static_cast<double>(picture.color.at(4, 4).g);
+    constexpr glm::ivec2 kPicture{8, 8};
+    Workers workers(2);
+    const Image<glm::vec4> picture = mode == "reference"
+                                         ? reference_render(scene, {camera, kPicture}, 8, workers).color
+                                         : draw_one(scene, by_mode(mode, kPicture)).color;
+    return static_cast<double>(picture.at(4, 4).g);
   };
-  for (const float radius : {0.0f, 0.01f}) {
-    const double free = brightness(INFINITY, radius, Light::Falloff::inverse_square);
-    EXPECT_GT(free, 0.1);
-    EXPECT_NEAR(brightness(4.0f, radius, Light::Falloff::inverse_square) / free, 1.0 - 1.0 / 16.0, 0.01);
-    EXPECT_LT(brightness(2.01f, radius, Light::Falloff::inverse_square) / free, 0.03);
-    EXPECT_EQ(brightness(1.9f, radius, Light::Falloff::inverse_square), 0.0);
-    EXPECT_EQ(brightness(2.1f, radius, Light::Falloff::none),
-              brightness(INFINITY, radius, Light::Falloff::none));
-  }
+  for (const char* mode : {"raytrace", "hybrid", "raster", "reference"})
+    for (const auto& [name, light] :
+         {std::pair("point", point), std::pair("ball", ball), std::pair("rectangle", rectangle)}) {
+      SCOPED_TRACE(std::string(mode) + ", " + name);
+      const auto at = [&, &of = light](float range, Light::Falloff falloff) {
+        return brightness(mode, of, range, falloff);
+      };
+      const double free = at(INFINITY, Light::Falloff::inverse_square);
+      EXPECT_GT(free, 0.1);
+      EXPECT_NEAR(at(4.0f, Light::Falloff::inverse_square) / free, 1.0 - 1.0 / 16.0, 0.01);
+      EXPECT_LT(at(2.01f, Light::Falloff::inverse_square) / free, 0.03);
+      EXPECT_EQ(at(1.9f, Light::Falloff::inverse_square), 0.0);
+      EXPECT_EQ(at(2.1f, Light::Falloff::none), at(INFINITY, Light::Falloff::none));
+    }
 }
 
 TEST(Lights, OfEveryKindLookTheSameOnBothSides) {

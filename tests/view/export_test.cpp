@@ -62,6 +62,21 @@ TEST(Export, FilterSamplesAndExposureAreSaid) {
   EXPECT_TRUE(holds(render_command(view, "mill"), " --denoise --spp 1 "));
 }
 
+// `render` begins with the file's first camera.
+TEST(Export, ProjectionLensAndFocusAreSaidWhereTheFirstCameraHasOthers) {
+  ExportedView view;
+  view.usual_camera.projection = Projection::fisheye;
+  view.usual_camera.lens_radius = 0.25f;
+  view.usual_camera.focus_distance = 3.0f;
+  view.camera = view.usual_camera;
+  const std::string same = render_command(view, "boat");
+  for (const char* option : {"--projection", "--lens-radius", "--focus"})
+    EXPECT_FALSE(holds(same, option)) << option << " in " << same;
+  view.camera = Camera{};
+  EXPECT_TRUE(
+      holds(render_command(view, "boat"), " --projection perspective --lens-radius 0 --focus 0 -o boat.exr"));
+}
+
 TEST(Export, WhatIsReadBesideTheSceneIsSaid) {
   ExportedView view;
   view.environment = "a sky.hdr";

@@ -139,7 +139,7 @@ TEST(LoadLost, PointsAndLinesBesideTriangles) {
   EXPECT_NE(lines.find("1 more place"), std::string::npos) << lines;
 }
 
-TEST(LoadLost, PlacesOfNodesThatAreNone) {
+TEST(LoadLost, NodeTransformsWithTheWrongCountOfNumbers) {
   Json json = triangle_json();
   json["nodes"][0]["translation"] = {1, 2};
   const std::string line = line_about(warnings_of(json), "translation is left out");

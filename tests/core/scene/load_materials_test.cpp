@@ -125,13 +125,16 @@ TEST(LoadMaterials, MtlStatements) {
 }
 
 TEST(LoadMaterials, MtlColoursAreNotNegative) {
-  EXPECT_EQ(read_materials("newmtl odd\nKd -1 0.5 -0.25\n").at(0).kd, glm::vec3(0, 0.5f, 0));
+  const std::string text = "newmtl odd\nKd -1 0.5 -0.25\nKs 0 -0 0\nTf 1 -1 1\n";
+  const MtlMaterial material = read_materials(text).at(0);
+  EXPECT_EQ(material.kd, glm::vec3(0, 0.5f, 0));
+  EXPECT_EQ(material.tf, glm::vec3(1, 0, 1));
   Warnings warnings;
-  add_lost_mtl_features("odd.mtl", "newmtl odd\nKd -1 0.5 -0.25\nKs 0 -0 0\nTf 1 -1 1\n", warnings);
-  ASSERT_EQ(std::distance(warnings.begin(), warnings.end()), 2);
-  EXPECT_NE(warnings.begin()->message().find("line 2: Kd is negative; negative values are read as 0"),
-            std::string::npos)
-      << warnings.begin()->message();
+  add_lost_mtl_features("odd.mtl", text, warnings);
+  ASSERT_EQ(warnings.size(), 2u);
+  for (const auto& [i, words] : {std::pair(0u, "line 2: Kd is negative; negative values are read as 0"),
+                                 std::pair(1u, "line 4: Tf is negative; negative values are read as 0")})
+    EXPECT_NE(warnings[i].message().find(words), std::string::npos) << warnings[i].message();
 }
 
 TEST(LoadMaterials, MtlNamesMayHoldBlanksAndNumbers) {

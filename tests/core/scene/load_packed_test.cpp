@@ -151,16 +151,21 @@ TEST(LoadPacked, LongBuffersInTheFile) {
   EXPECT_NE(error_of(json).find("holds 1 bytes"), std::string::npos);
 }
 
-// Encoders write quantised numbers as plain integers: the accessor says that they are from 0 to 1.
+// Draco's encoders store quantised numbers as plain integers; the accessor's `normalized` maps them to 0 to
+// 1, or -1 to 1.
 TEST(LoadPacked, DracosIntegersAreNormalizedAsTheAccessorSays) {
   draco::TriangleSoupMeshBuilder builder;
   builder.Start(1);
   const int places = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_INT16),
-            colors = builder.AddAttribute(draco::GeometryAttribute::COLOR, 4, draco::DT_UINT8);
+            colors = builder.AddAttribute(draco::GeometryAttribute::COLOR, 4, draco::DT_UINT8),
+            normals = builder.AddAttribute(draco::GeometryAttribute::NORMAL, 3, draco::DT_INT8);
   const std::array<std::array<std::int16_t, 3>, 3> p{{{0, 0, 0}, {32767, 0, 0}, {0, -32768, 0}}};
   builder.SetAttributeValuesForFace(places, draco::FaceIndex(0), p[0].data(), p[1].data(), p[2].data());
   const std::array<std::uint8_t, 4> color{51, 102, 255, 255};
   builder.SetAttributeValuesForFace(colors, draco::FaceIndex(0), color.data(), color.data(), color.data());
+  const std::array<std::int8_t, 3> normal{0, 0, -128};
+  builder.SetAttributeValuesForFace(normals, draco::FaceIndex(0), normal.data(), normal.data(),
+                                    normal.data());
   draco::EncoderBuffer buffer;
   ASSERT_TRUE(draco::Encoder().EncodeMeshToBuffer(*builder.Finalize(), &buffer).ok());
   Json json = with_buffer({buffer.data(), buffer.size()});
@@ -169,18 +174,20 @@ TEST(LoadPacked, DracosIntegersAreNormalizedAsTheAccessorSays) {
   };
   json["accessors"] = {accessor(5122, "VEC3"),
                        {{"componentType", 5123}, {"count", 3}, {"type", "SCALAR"}},
-                       accessor(5121, "VEC4")};
+                       accessor(5121, "VEC4"),
+                       accessor(5120, "VEC3")};
   json["extensionsRequired"] = {"KHR_draco_mesh_compression", "KHR_mesh_quantization"};
   Json& primitive = json["meshes"][0]["primitives"][0];
-  primitive["attributes"] = {{"POSITION", 0}, {"COLOR_0", 2}};
+  primitive["attributes"] = {{"POSITION", 0}, {"COLOR_0", 2}, {"NORMAL", 3}};
   primitive["indices"] = 1;
-  primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0},
-                                                           {"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}}};
+  primitive["extensions"]["KHR_draco_mesh_compression"] = {
+      {"bufferView", 0}, {"attributes", {{"POSITION", 0}, {"COLOR_0", 1}, {"NORMAL", 2}}}};
   const Scene scene = load_good(json);
   EXPECT_EQ(scene.mesh->bounds().hi, glm::vec3(1, 0, 0));
   EXPECT_EQ(scene.mesh->bounds().lo, glm::vec3(0, -1, 0));
   ASSERT_EQ(scene.mesh->colors.size(), 3u);
   EXPECT_NEAR(scene.mesh->colors[0].r, 0.2f, 1e-6f);
+  EXPECT_EQ(scene.mesh->normals[0], glm::vec3(0, 0, -1));
 }
 
 TEST(LoadPacked, Draco) {

@@ -258,9 +258,9 @@ TEST(Wide, NoHitDependsOnWhenItIsBuilt) {
   }
 }
 
-TEST(Coherence, InSmallPicturesOfManyTrianglesAndInNoOrder) {
+TEST(Coherence, RaysOfSmallPicturesAndInNoOrderAreIncoherent) {
   const Scene scene = plate_over_floor();
-  const auto part = [](const std::vector<Ray>& rays, float apart) {
+  const auto incoherent = [](const std::vector<Ray>& rays, float apart) {
     return are_incoherent(Columns(rays).get(), rays.size(), glm::vec3(0.0f), apart);
   };
   const auto picture = [&scene](int size) {
@@ -273,16 +273,16 @@ TEST(Coherence, InSmallPicturesOfManyTrianglesAndInNoOrder) {
       for (int x = 0; x < size; ++x) rays.push_back(pixel_ray(view, x, y));
     return rays;
   };
-  EXPECT_TRUE(part(picture(32), 0.02f));
-  EXPECT_FALSE(part(picture(32), 0.5f));
-  EXPECT_FALSE(part(picture(512), 0.02f));
+  EXPECT_TRUE(incoherent(picture(32), 0.02f));
+  EXPECT_FALSE(incoherent(picture(32), 0.5f));
+  EXPECT_FALSE(incoherent(picture(512), 0.02f));
   Random random(1);
   std::vector<Ray> rays;
   for (int i = 0; i < 100; ++i)
     rays.push_back({random_point(random, 3.0f), kInfinity, random_point(random, 1.0f)});
-  EXPECT_TRUE(part(rays, 0.1f));
-  EXPECT_FALSE(part({rays.front()}, 0.1f));
-  EXPECT_FALSE(part({}, 0.1f));
+  EXPECT_TRUE(incoherent(rays, 0.1f));
+  EXPECT_FALSE(incoherent({rays.front()}, 0.1f));
+  EXPECT_FALSE(incoherent({}, 0.1f));
 }
 
 }  // namespace
