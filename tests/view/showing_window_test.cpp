@@ -28,6 +28,31 @@ TEST_F(ShowingTest, PSaysWhichSceneItWrites) {
   expect_clean_close();
 }
 
+// The studio's light was edited: the saved scene has it, and the command gives it the studio's sky.
+TEST_F(ShowingTest, PNamesTheSkyOfAnEditedStudio) {
+  std::ofstream(folder_ / "corner.obj")
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  open_with("Lights", "corner.obj", "--mode raytrace");
+  EXPECT_EQ(option(command_line(), "--environment"), "");
+  const std::vector<int> rows = widgets_at(121, 30, 560);
+  ASSERT_GE(rows.size(), 3u);  // direction, colour, intensity
+  drag_from(150, rows[2], -60);
+  EXPECT_TRUE(picture_becomes_other("opened.png"));
+  settle();
+  key("F12");
+  ASSERT_TRUE(becomes([this] { return std::filesystem::exists(folder_ / "corner-001.png"); }));
+  std::string command = command_line();
+  EXPECT_NE(command.find("render corner-002.gltf"), std::string::npos) << command;
+  EXPECT_EQ(option(command, "--environment"), "studio") << command;
+  EXPECT_EQ(json_of("corner-002.gltf")["extensions"]["KHR_lights_punctual"]["lights"].size(), 1u);
+  command.replace(0, std::string("pinocchio").size(), "'" PINOCCHIO_PROGRAM "'");
+  EXPECT_EQ(run_command("cd '" + folder_.string() + "' && " + command, folder_).exit_code, 0) << command;
+  // Not quite the same pixels: the light's numbers are rounded in the file.
+  EXPECT_EQ(different_in("800x600+0+0", "corner-001.png", "corner-002.png", 1), 0);
+  key("ctrl+s");
+  expect_clean_close("a studio lights and frames it");
+}
+
 // A light's name beside its mark does not touch the edge of its box.
 TEST_F(ShowingTest, AMarksLabelHasRoomAroundIt) {
   open_with("Lights", scene("cornell"), "--eye 0,1,3.4 --target 0,1,0 --light 0,1,0,0.5 --mode raster");
