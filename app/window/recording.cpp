@@ -41,6 +41,15 @@ std::string Recording::environment_file(const DrawOptions& draw) const {
   return is_environment_file(environment->source()) ? environment->source() : draw.environment;
 }
 
+// The endings of the files that save_scene writes for this extension: .gltf has a .bin beside it.
+std::vector<std::string> Recording::endings(const std::string& extension) const {
+  const std::string stem = "scene";
+  std::vector<std::string> endings;
+  for (const std::filesystem::path& file : saved_files(model_.scene, stem + extension))
+    endings.push_back(file.string().substr(stem.size()));
+  return endings;
+}
+
 std::string Recording::file_name(const std::vector<std::string>& extensions) const {
   const std::string stem = std::filesystem::path(model_.scene.source).stem().string();
   const std::filesystem::path folder(model_.save.folder);
@@ -113,7 +122,7 @@ void Recording::save_camera() {
 }
 
 void Recording::save_gltf() {
-  save_scene_to(file_name({".gltf", ".bin"}) + ".gltf");
+  save_scene_to(file_name(endings(".gltf")) + ".gltf");
 }
 
 // Without the studio, which lights a file without light.
@@ -140,7 +149,7 @@ void Recording::save_scene_to(const std::string& file) {
 
 std::string Recording::chosen_file(const std::string& extension) const {
   const SavePlace& place = model_.save;
-  if (place.name.empty()) return file_name({extension}) + extension;
+  if (place.name.empty()) return file_name(endings(extension)) + extension;
   std::string file = (std::filesystem::path(place.folder) / place.name).string();
   if (!file.ends_with(extension)) file += extension;
   for (const std::filesystem::path& one : saved_files(model_.scene, file))
@@ -177,7 +186,9 @@ void Recording::save_picture(Action action, const Settings& settings, const std:
 }
 
 std::string Recording::print_command(const Settings& settings, const DrawOptions& draw) {
-  const std::string name = file_name({".png", ".exr", ".gltf"});
+  std::vector<std::string> written = endings(".gltf");
+  written.insert(written.end(), {".png", ".exr"});
+  const std::string name = file_name(written);
   ExportedView view;
   view.scene = model_.scene.source;
   view.load = draw.load;

@@ -39,6 +39,7 @@ class Recording {
   void save_picture(Action action, const Settings& settings, const std::string& file);
   [[nodiscard]] Camera usual_camera() const;
   [[nodiscard]] std::string environment_file(const DrawOptions& draw) const;
+  [[nodiscard]] std::vector<std::string> endings(const std::string& extension) const;
   [[nodiscard]] std::string file_name(const std::vector<std::string>& extensions) const;
 
   Model& model_;

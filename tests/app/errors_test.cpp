@@ -103,6 +103,8 @@ TEST_F(ErrorsTest, Usage) {
   expect_error("render -o x.exr", 2, "SCENE");
   expect_error("generate nothing", 2, "two-lights");
   expect_error("generate cornell -o x.stl", 2, "choose .gltf, .glb or .obj");
+  expect_error("generate cornell --triangles 5000 -o x.gltf", 2,
+               "the scene 'cornell' has a fixed number of triangles; leave out --triangles");
   expect_error(render + "--projection fisheye --mask-scale 2 -o x.exr", 2, "the CPU alone draws a panorama");
   expect_error("measure" + scene("cornell") + "--compare --projection panorama", 2, "cannot draw a panorama");
 }

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "app/report/stats.h"
 #include "tests/app/program_test.h"
 
 namespace pinocchio {
@@ -19,6 +20,37 @@ class MeasureTest : public ProgramTest {
   }
 };
 
+// One frame each 10 ms, delivered 30 ms after it began.
+std::vector<FrameRecord> pipelined_records(std::size_t count) {
+  std::vector<FrameRecord> records(count);
+  for (std::size_t i = 0; i < count; ++i) records[i].frame = {0.01 * i, 0.01 * i + 0.03};
+  return records;
+}
+
+TEST(Figures, PipelinedFramesASecondAreThoseDelivered) {
+  const auto fps = [](const std::vector<FrameRecord>& records) {
+    return app::figures(records, {}, {}, {8, 6}, nullptr)["fps"].get<double>();
+  };
+  EXPECT_NEAR(fps(pipelined_records(6)), 100.0, 1e-9);
+  EXPECT_NEAR(fps(pipelined_records(2)), 100.0, 1e-9);
+  EXPECT_NEAR(fps(pipelined_records(1)), 1.0 / 0.03, 1e-9);
+  EXPECT_EQ(fps({}), 0.0);
+}
+
+// Reprojected, the last frame's own mask and reflection are not traced: it sent nothing.
+TEST(Figures, ReprojectedBytesAreThoseOfTracedFrames) {
+  std::vector<FrameRecord> records = pipelined_records(4);
+  for (std::size_t i = 0; i < 3; ++i) records[i][Channel::mask] = 1000, records[i].rays.primary = 48;
+  Settings settings;
+  settings.exchange = Exchange::reproject;
+  const nlohmann::json reprojected = app::figures(records, settings, {}, {8, 6}, nullptr);
+  EXPECT_EQ(reprojected["bytes"]["cpu_to_gpu"], 1000);
+  EXPECT_EQ(reprojected["rays"]["primary"], 48);
+  EXPECT_EQ(reprojected["frames"], 4);
+  settings.exchange = Exchange::pipelined;
+  EXPECT_EQ(app::figures(records, settings, {}, {8, 6}, nullptr)["bytes"]["cpu_to_gpu"], 750);
+}
+
 const std::string kSmall = "--size 80x60 --turntable 9 ";
 const std::string kLarger = "--size 240x180 --turntable 9 ";  // that the rasteriser finds what is seen
 
@@ -30,6 +62,7 @@ TEST_F(MeasureTest, PrintsATableAndWritesTheFigures) {
     EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
   EXPECT_EQ(result.out.find("at most"), std::string::npos) << result.out;
   const nlohmann::json figures = json("m.json");
+  EXPECT_EQ(figures["size"], nlohmann::json({240, 180}));
   EXPECT_EQ(figures["latency"]["frames"], 2);
   EXPECT_GT(figures["exchange"]["gpu_to_cpu"]["ratio_to_memcpy"], 0.0);
   EXPECT_GT(figures["overlap"]["cpu_busy"], 0.0);
@@ -50,6 +83,19 @@ TEST_F(MeasureTest, PrintsWhatTravelsAndTheBoundOnRequest) {
   std::istringstream(result.out.substr(all + 6)) >> to_cpu >> to_gpu;
   EXPECT_NEAR(to_cpu, bytes["gpu_to_cpu"].get<double>(), 0.5);
   EXPECT_NEAR(to_gpu, bytes["cpu_to_gpu"].get<double>(), 0.5);
+}
+
+// A path of one key: each frame is drawn, although none differs from the one before.
+TEST_F(MeasureTest, EachFrameOfAStillCameraIsDrawn) {
+  write("still.json", R"({"keyframes": [{"frame": 0, "eye": [0, 1, 3], "target": [0, 1, 0]}]})");
+  const std::string measure =
+      "measure" + scene("cornell") + "--size 240x180 --path still.json --quiet --stats-json m.json ";
+  ASSERT_EQ(run(measure + "--frames 9").exit_code, 0);
+  EXPECT_EQ(json("m.json")["frames"], 6);  // three warm up
+  EXPECT_EQ(json("m.json")["bytes"]["gpu_to_cpu"], 240 * 180 * 2);
+  ASSERT_EQ(run(measure + "--mode raytrace").exit_code, 0);  // the path's one frame
+  EXPECT_EQ(json("m.json")["frames"], 1);
+  EXPECT_EQ(json("m.json")["rays"]["primary"], 240 * 180);
 }
 
 // What the CPU draws alone keeps no GPU busy and sends nothing.
@@ -141,14 +187,16 @@ TEST_F(MeasureTest, SlidesMoveTheirBytesAtTheirSize) {
   const struct {
     const char* design;
     int to_cpu, to_gpu;
-  } kWanted[] = {{"1", 2'880'000, 1'920'000}, {"2", 9'120'000, 1'440'000}};
+  } kWanted[] = {{"1", 2'880'000, 1'920'000},
+                 {"1 --exchange reproject", 2'880'000, 1'920'000},
+                 {"2", 9'120'000, 1'440'000}};
   for (const auto& wanted : kWanted) {
     const CommandResult result =
         run("measure" + scene("cornell") +
             "--turntable 4 --plan slides --quiet --stats-json m.json --design " + wanted.design);
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(json("m.json")["bytes"]["gpu_to_cpu"], wanted.to_cpu);
-    EXPECT_EQ(json("m.json")["bytes"]["cpu_to_gpu"], wanted.to_gpu);
+    EXPECT_EQ(json("m.json")["bytes"]["gpu_to_cpu"], wanted.to_cpu) << wanted.design;
+    EXPECT_EQ(json("m.json")["bytes"]["cpu_to_gpu"], wanted.to_gpu) << wanted.design;
   }
 }
 

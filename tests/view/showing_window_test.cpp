@@ -7,8 +7,10 @@ namespace {
 
 using ShowingTest = EditingTest;
 
-// A scene that is as in its file is named in the command; an edited one is saved for it, which is said.
+// A scene that is as in its file is named in the command; an edited one is saved for it, which is said. No
+// file is replaced.
 TEST_F(ShowingTest, PSaysWhichSceneItWrites) {
+  std::ofstream(folder_ / "cornell-001.bin") << "mine";
   open_with("Scene", scene("cornell"));
   pause_ms(7000);  // what P said is gone by itself
   settle("quiet.png");
@@ -18,11 +20,37 @@ TEST_F(ShowingTest, PSaysWhichSceneItWrites) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "cornell-001.gltf"));
   click(40, widgets_at(75, 240, 460)[1]);  // hides a part
   xdo(at(700, 500));
-  EXPECT_NE(command_line().find("render cornell-001.gltf"), std::string::npos);
-  EXPECT_EQ(lines_of("the scene as it is shown is in " + (folder_ / "cornell-001.gltf").string()), 1);
+  EXPECT_NE(command_line().find("render cornell-002.gltf"), std::string::npos);
+  EXPECT_EQ(lines_of("the scene as it is shown is in " + (folder_ / "cornell-002.gltf").string()), 1);
+  EXPECT_TRUE(text_of(folder_ / "cornell-001.bin") == "mine");
   settle("said.png");
   EXPECT_GT(different_in(messages, "quiet.png", "said.png"), 500);
   expect_clean_close();
+}
+
+// The studio's light was edited: the saved scene has it, and the command gives it the studio's sky.
+TEST_F(ShowingTest, PNamesTheSkyOfAnEditedStudio) {
+  std::ofstream(folder_ / "corner.obj")
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  open_with("Lights", "corner.obj", "--mode raytrace");
+  EXPECT_EQ(option(command_line(), "--environment"), "");
+  const std::vector<int> rows = widgets_at(121, 30, 560);
+  ASSERT_GE(rows.size(), 3u);  // direction, colour, intensity
+  drag_from(150, rows[2], -60);
+  EXPECT_TRUE(picture_becomes_other("opened.png"));
+  settle();
+  key("F12");
+  ASSERT_TRUE(becomes([this] { return std::filesystem::exists(folder_ / "corner-001.png"); }));
+  std::string command = command_line();
+  EXPECT_NE(command.find("render corner-002.gltf"), std::string::npos) << command;
+  EXPECT_EQ(option(command, "--environment"), "studio") << command;
+  EXPECT_EQ(json_of("corner-002.gltf")["extensions"]["KHR_lights_punctual"]["lights"].size(), 1u);
+  command.replace(0, std::string("pinocchio").size(), "'" PINOCCHIO_PROGRAM "'");
+  EXPECT_EQ(run_command("cd '" + folder_.string() + "' && " + command, folder_).exit_code, 0) << command;
+  // Not quite the same pixels: the light's numbers are rounded in the file.
+  EXPECT_EQ(different_in("800x600+0+0", "corner-001.png", "corner-002.png", 1), 0);
+  key("ctrl+s");
+  expect_clean_close("a studio lights and frames it");
 }
 
 // A light's name beside its mark does not touch the edge of its box.
@@ -103,6 +131,25 @@ TEST_F(ShowingTest, FilesAreSavedToAFolder) {
   stbi_image_free(bytes);
   click(287, rows[3]);  // EXR
   EXPECT_TRUE(exists("s/n.exr"));
+  expect_clean_close("exists");
+}
+
+// A file beside the scene's stays, too, whether the name is typed or not.
+TEST_F(ShowingTest, ABinIsNotReplaced) {
+  for (const char* file : {"n.bin", "triangle-001.bin"}) std::ofstream(folder_ / file) << "mine";
+  std::ofstream(folder_ / "triangle.obj") << "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
+  open_with("Save", "triangle.obj", "--light 0,0,5");
+  const std::vector<int> rows = widgets_at(118, 30, 170);  // folder, name, scene, picture
+  ASSERT_EQ(rows.size(), 4u);
+  const int gltf_x = 160;
+  click(gltf_x, rows[2]);
+  EXPECT_TRUE(becomes([this] { return std::filesystem::exists(folder_ / "triangle-002.gltf"); }));
+  type(200, rows[1], "n");
+  click(gltf_x, rows[2]);
+  EXPECT_TRUE(becomes([this] { return errors().find("n.bin exists") != std::string::npos; }));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "n.gltf"));
+  for (const char* file : {"n.bin", "triangle-001.bin"})
+    EXPECT_TRUE(text_of(folder_ / file) == "mine") << file;
   expect_clean_close("exists");
 }
 

@@ -322,6 +322,38 @@ TEST(LoadGltf, QuantizedAttributes) {
   EXPECT_EQ(scene.mesh->texcoords.at(2), glm::vec2(0.0f, 0.2f));
 }
 
+// glTF: -128 is -1, as -127 is.
+TEST(LoadGltf, NormalizedIntegersAreAtLeastMinusOne) {
+  const std::string bytes("\x80\x7f\0\0\x81\0\0\0", 8), shorts("\0\x80\xff\x7f\x01\x80\0\0", 8);
+  for (const auto& [type, stored] : {std::pair(5120, bytes + bytes), std::pair(5122, shorts + shorts)}) {
+    Json json = textured_json({{"uri", "data:;base64,UDYgMSAxIDI1NQoKFB4="}});
+    json["buffers"].push_back({{"uri", "data:;base64," + base64(stored)}, {"byteLength", 16}});
+    json["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 16}, {"byteStride", 4}});
+    json["accessors"].push_back(
+        {{"bufferView", 2}, {"componentType", type}, {"count", 4}, {"type", "VEC2"}, {"normalized", true}});
+    json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2;
+    json["extensionsRequired"] = {"KHR_mesh_quantization"};
+    const Scene scene = load_good(json);
+    EXPECT_EQ(scene.mesh->texcoords.at(0), glm::vec2(-1.0f, 1.0f)) << type;
+    EXPECT_EQ(scene.mesh->texcoords.at(1), glm::vec2(-1.0f, 0.0f)) << type;
+  }
+}
+
+// glTF: "When normals are not specified, ... the provided tangents (if present) MUST be ignored."
+TEST(LoadGltf, TangentsWithoutNormalsAreLeftOut) {
+  const std::string tangents(4 * 16, '\x3f');  // floats of 0.747
+  Json json = with_coordinates(textured_json({{"uri", "data:;base64,UDYgMSAxIDI1NQoKFB4="}}));
+  json["materials"][0]["normalTexture"] = {{"index", 0}};
+  json["buffers"].push_back({{"uri", "data:;base64," + base64(tangents)}, {"byteLength", 64}});
+  json["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 64}});
+  json["accessors"].push_back({{"bufferView", 2}, {"componentType", 5126}, {"count", 4}, {"type", "VEC4"}});
+  Json& attributes = json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["TANGENT"] = 3;
+  EXPECT_TRUE(load_good(json).mesh->tangents.empty());
+  attributes["NORMAL"] = 0;
+  EXPECT_EQ(load_good(json).mesh->tangents.size(), 4u);
+}
+
 TEST(LoadGltf, ImagesBesideTheFileAreTextures) {
   std::ofstream(own_file("texel.ppm"), std::ios::binary) << "P6 1 1 255\n\x0a\x14\x1e";
   const Scene scene = load_good(textured_json({{"uri", "texel.ppm"}}));

@@ -17,7 +17,9 @@ TEST(LoadMaterials, GltfTexturesSamplersAndTransforms) {
   material["occlusionTexture"] = {{"index", 0}, {"strength", 0.25}};
   material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {
       {"index", 0},
-      {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0.25}}, {"scale", {2, 3}}}}}}};
+      {"texCoord", 0},  // the extension's own goes before it
+      {"extensions",
+       {{"KHR_texture_transform", {{"offset", {0.5, 0.25}}, {"scale", {2, 3}}, {"texCoord", 1}}}}}};
   material["alphaMode"] = "MASK";
   material["alphaCutoff"] = 0.75;
   json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 0;
@@ -37,6 +39,7 @@ TEST(LoadMaterials, GltfTexturesSamplersAndTransforms) {
   EXPECT_EQ(maps->normal_scale, 0.5f);
   EXPECT_EQ(maps->occlusion_strength, 0.25f);
   EXPECT_EQ(maps->metallic_roughness.uv_from_texcoord, glm::mat3x2(2, 0, 0, 3, 0.5f, 0.25f));
+  EXPECT_EQ(maps->metallic_roughness.uv_set, 1);
   EXPECT_EQ(maps->alpha_mode, AlphaMode::mask);
   EXPECT_EQ(maps->alpha_cutoff, 0.75f);
   EXPECT_EQ(maps->alpha, maps->base_color);
@@ -177,6 +180,23 @@ TEST(LoadMaterials, MtlTrIsOpacityWhereItsWriterMeansThat) {
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].message().find("tr.mtl: Tr is read as opacity: its header names MeshLab"),
             std::string::npos);
+}
+
+// -imfchan: l is the luminance.
+TEST(LoadMaterials, MtlAlphaIsTheChannelItNames) {
+  std::ofstream(own_file("a.ppm"), std::ios::binary) << "P6 1 1 255\n\x64\xc8\x32";  // 100, 200, 50
+  std::ofstream(own_file("a.obj"))
+      << "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
+  for (const auto& [channel, alpha] : {std::pair("r", 100), std::pair("b", 50), std::pair("l", 168)}) {
+    std::ofstream(own_file("a.mtl")) << "newmtl m\nmap_d -imfchan " << channel << " a.ppm\n";
+    const Expected<Scene> scene = load_scene(own_file("a.obj"));
+    ASSERT_TRUE(scene) << channel;
+    const MaterialMaps* maps = scene->mesh->maps_of(0);
+    ASSERT_NE(maps, nullptr) << channel;
+    EXPECT_TRUE(maps->blends()) << channel;
+    const glm::u8vec4 texel = scene->mesh->textures[maps->alpha.texture].image().at(0, 0);
+    EXPECT_EQ(texel[maps->alpha_channel], alpha) << channel;
+  }
 }
 
 TEST(LoadMaterials, MtlDissolveBlendsUnlessItRefracts) {
