@@ -60,9 +60,9 @@ class ObjReader {
                                  std::to_string(highest_[kind].index) + ", there are " +
                                  std::to_string(count(kind));
         if (kind == kVertex) return fail(highest_[kind].line, what);
-        warnings_.add({file_, "line " + std::to_string(highest_[kind].line), what,
-                       kind == kNormal ? "faces are shaded as without normals"
-                                       : "its texture has one colour there"});
+        warnings_.add(
+            {file_, "line " + std::to_string(highest_[kind].line), what,
+             kind == kNormal ? "faces are shaded as without normals" : "its texture has one colour there"});
         leave_out_unknown(kind);
       }
     if (!obj_.colors.empty()) obj_.colors.resize(obj_.positions.size(), glm::vec3(1.0f));
