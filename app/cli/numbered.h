@@ -9,8 +9,9 @@
 
 namespace pinocchio::app {
 
-// Where a pattern such as "frame-####.exr" has its number: at the last #s of the file's name. If that has
-// none, at the last two or more #s of the folders; a single one there belongs to a name (C#). Empty: nowhere.
+// The place of the frame's number in a pattern such as "frame-####.exr": the last run of # in the file's
+// name, else the last run of two or more # in a folder's name. A single # there is part of the name, as in
+// C#.
 struct NumberPlace {
   std::size_t first = 0, end = 0;
 

@@ -24,7 +24,7 @@ struct ProjectedTriangle {
 
 static_assert(sizeof(ProjectedTriangle) == 48);
 
-// Whether the triangle has an area. No ray meets one without.
+// False: the corners are on one line, or in one place, and no ray hits the triangle.
 [[nodiscard]] bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
 }  // namespace pinocchio

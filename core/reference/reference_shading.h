@@ -32,11 +32,10 @@ struct ReferenceLight {
 // The share of unpolarised light that a smooth dielectric mirrors (Born and Wolf, Principles of
 // Optics, 1.5.2). eta: the index on the far side divided by the index on the near side.
 [[nodiscard]] double reference_fresnel(double cos_in, double eta);
-// What a glass surface mirrors of the light, by colour, with a metal's part. `kept`: what the glass alone
-// mirrors, in its brightest colour; the rest goes through, times the transmittance.
+// Shares of the light at a glass surface. 1 - kept, times the transmittance, goes through.
 struct ReferenceGlass {
-  glm::dvec3 mirrored;
-  double kept;
+  glm::dvec3 mirrored;  // by the glass, and by the metal where the surface is partly metal
+  double kept;          // mirrored by the glass, in its brightest colour
 };
 [[nodiscard]] ReferenceGlass reference_glass(const ReferenceMaterial& m, double cos_in, double eta);
 

@@ -23,8 +23,8 @@ struct SceneFormat {
   std::string_view name;
   std::array<std::string_view, 2> extensions;  // in lower case; empty: none
   Expected<Scene> (*load)(const std::filesystem::path&, Loading&);
-  void (*save)(const Scene&, const std::filesystem::path&, Progress*, Warnings*);  // null: it is only read
-  SavedFiles (*saved_files)(const Scene&, const std::filesystem::path&);           // null: the one file
+  void (*save)(const Scene&, const std::filesystem::path&, Progress*, Warnings*);   // null: it is only read
+  SavedFiles (*saved_files)(const Scene&, const std::filesystem::path&) = nullptr;  // null: the one file
 };
 
 // The files of the formats that write several.

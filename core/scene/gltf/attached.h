@@ -22,7 +22,7 @@ namespace pinocchio {
 [[nodiscard]] Light at_rest(const glm::mat4& world, const Light& light);
 [[nodiscard]] Camera at_rest(const glm::mat4& world, const Camera& camera);
 
-// Whether all of the light's numbers are finite.
+// False: some number of the light is NaN or infinite.
 [[nodiscard]] bool can_shine(const Light& light);
 
 }  // namespace pinocchio

@@ -18,31 +18,27 @@
 namespace pinocchio {
 namespace {
 
-// What an accessor's numbers are.
-struct Numbers {
-  int component_type = kGltfFloat, components = 1;
-  bool normalized = false;
-};
-
-// Appends an accessor on bytes of its own, elements one after the other.
-int add_accessor(GltfFile& file, FileBytes bytes, const Numbers& numbers, std::size_t count) {
+// Appends the accessor, whose elements are these bytes, one after the other.
+int add_accessor(GltfFile& file, FileBytes bytes, GltfAccessor accessor) {
   file.buffer_views.push_back({as_int(file.buffers.size()), 0, bytes.size()});
   file.add_buffer(std::move(bytes));
-  GltfAccessor& accessor = file.accessors.emplace_back();
   accessor.buffer_view = as_int(file.buffer_views.size() - 1);
-  accessor.count = count;
-  accessor.component_type = numbers.component_type;
-  accessor.components = numbers.components;
-  accessor.normalized = numbers.normalized;
+  file.accessors.push_back(accessor);
   return as_int(file.accessors.size() - 1);
 }
 
-// Draco converts integers that its own flag says are normalized. Encoders leave that unset: then the accessor
-// normalizes them, as it does without Draco.
-Numbers numbers_of(const GltfAccessor& own, const draco::PointAttribute& attribute) {
-  const bool integers = own.component_type <= kGltfUnsignedShort && IsDataTypeIntegral(attribute.data_type());
-  if (!own.normalized || !integers || attribute.normalized()) return {kGltfFloat, own.components, false};
-  return {own.component_type, own.components, true};
+// The accessor of an unpacked attribute in place of its own, which states what is packed. Draco normalizes
+// integers itself if its own flag says so. Encoders leave that unset: then the accessor does it.
+GltfAccessor unpacked_accessor(const GltfAccessor& own, const draco::PointAttribute& attribute,
+                               std::size_t points) {
+  const bool normalizes = own.normalized && own.component_type <= kGltfUnsignedShort &&
+                          IsDataTypeIntegral(attribute.data_type()) && !attribute.normalized();
+  GltfAccessor unpacked;
+  unpacked.count = points;
+  unpacked.component_type = normalizes ? own.component_type : kGltfFloat;
+  unpacked.components = own.components;
+  unpacked.normalized = normalizes;
+  return unpacked;
 }
 
 template <class Number, int kComponents>
@@ -71,19 +67,21 @@ FileBytes values_of(const draco::PointAttribute& attribute, std::size_t points, 
   }
 }
 
-// Empty: no attribute of vertices has so many components.
-FileBytes values_of(const draco::PointAttribute& attribute, std::size_t points, const Numbers& numbers) {
-  switch (numbers.component_type) {
+// In the accessor's type. Empty: no attribute of vertices has so many components.
+FileBytes values_of(const draco::PointAttribute& attribute, const GltfAccessor& accessor) {
+  const std::size_t points = accessor.count;
+  const int components = accessor.components;
+  switch (accessor.component_type) {
     case kGltfByte:
-      return values_of<std::int8_t>(attribute, points, numbers.components);
+      return values_of<std::int8_t>(attribute, points, components);
     case kGltfUnsignedByte:
-      return values_of<std::uint8_t>(attribute, points, numbers.components);
+      return values_of<std::uint8_t>(attribute, points, components);
     case kGltfShort:
-      return values_of<std::int16_t>(attribute, points, numbers.components);
+      return values_of<std::int16_t>(attribute, points, components);
     case kGltfUnsignedShort:
-      return values_of<std::uint16_t>(attribute, points, numbers.components);
+      return values_of<std::uint16_t>(attribute, points, components);
     default:
-      return values_of<float>(attribute, points, numbers.components);
+      return values_of<float>(attribute, points, components);
   }
 }
 
@@ -128,10 +126,10 @@ class DracoPrimitive {
       const draco::PointAttribute* attribute = id >= 0 ? mesh.GetAttributeByUniqueId(as_uint32(id)) : nullptr;
       if (!attribute || !in_range(accessor, file_.accessors))
         return file_.error(std::string(kWhose) + " lacks its attribute " + name);
-      const Numbers numbers = numbers_of(item_of(file_.accessors, accessor), *attribute);
-      const std::size_t points = mesh.num_points();
-      FileBytes values = values_of(*attribute, points, numbers);
-      if (values.size() > 0) accessor = add_accessor(file_, std::move(values), numbers, points);
+      const GltfAccessor unpacked =
+          unpacked_accessor(item_of(file_.accessors, accessor), *attribute, mesh.num_points());
+      FileBytes values = values_of(*attribute, unpacked);
+      if (values.size() > 0) accessor = add_accessor(file_, std::move(values), unpacked);
     }
     FileBytes indices(std::size_t{mesh.num_faces()} * sizeof(glm::uvec3));
     for (draco::FaceIndex f(0); f < mesh.num_faces(); ++f) {
@@ -140,8 +138,11 @@ class DracoPrimitive {
       std::memcpy(indices.data() + f.value() * sizeof corners, &corners, sizeof corners);
     }
     primitive_.mode = kGltfTriangles;
-    primitive_.indices = add_accessor(file_, std::move(indices), {kGltfUnsignedInt, 1, false},
-                                      std::size_t{3} * mesh.num_faces());
+    GltfAccessor corners;
+    corners.count = std::size_t{3} * mesh.num_faces();
+    corners.component_type = kGltfUnsignedInt;
+    corners.components = 1;
+    primitive_.indices = add_accessor(file_, std::move(indices), corners);
     return {};
   }
 

@@ -341,7 +341,7 @@ Expected<Scene> load_ply(const std::filesystem::path& path, Loading& loading) {
 }  // namespace
 
 namespace room {
-extern const SceneFormat ply{"PLY", {".ply"}, load_ply, nullptr, nullptr};
+extern const SceneFormat ply{"PLY", {".ply"}, load_ply, nullptr};
 }  // namespace room
 
 }  // namespace pinocchio

@@ -207,7 +207,7 @@ Expected<Scene> load_stl(const std::filesystem::path& path, Loading& loading) {
 }  // namespace
 
 namespace room {
-extern const SceneFormat stl{"STL", {".stl"}, load_stl, nullptr, nullptr};
+extern const SceneFormat stl{"STL", {".stl"}, load_stl, nullptr};
 }  // namespace room
 
 }  // namespace pinocchio

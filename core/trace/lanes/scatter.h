@@ -60,11 +60,10 @@ inline Float fresnel_dielectric(Float cos_in, Float eta) {
   return select(one <= sin2_out, one, Float(0.5f) * (parallel * parallel + perpendicular * perpendicular));
 }
 
-// What a glass surface mirrors of the light, by colour, with a metal's part. `kept`: what the glass alone
-// mirrors, in its brightest colour; the rest goes through, times the transmittance.
+// Shares of the light at a glass surface. 1 - kept, times the transmittance, goes through.
 struct GlassMirror {
-  Vec mirrored;
-  Float kept;
+  Vec mirrored;  // by the glass, and by the metal where the surface is partly metal
+  Float kept;    // mirrored by the glass, in its brightest colour
 };
 
 // Walls of glTF's model that do not bend light.

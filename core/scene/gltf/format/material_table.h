@@ -91,7 +91,7 @@ inline constexpr GltfTexture kGltfTextures[] = {
 // Whether some row is part of the extension.
 [[nodiscard]] bool is_in_material_table(std::string_view extension);
 
-// What read_gltf_parameter did with the file's value: used it, used it clamped, or left it out.
+// Whether a file's value is used as it is, clamped to its range, or left out.
 enum class GltfValue { fits, clamped, wrong_type };
 
 // Sets the row's member to the file's value, if there is one.
