@@ -32,6 +32,9 @@ vec4 texel_at(TexelSource source, int i, bool is_color) {
   vec4 texel = texelFetch(texels, i);
   return is_color ? vec4(linear_from_srgb(texel.rgb), texel.a) : texel;
 }
+float texel_scale(bool is_color) { return 1.0; }
+
+float level_of(float texels) { return log2(texels); }
 
 struct MapPoint {
   uvec3 corners;

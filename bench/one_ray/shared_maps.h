@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cstdint>
 
 #include "core/image/tonemap.h"
 #include "core/shade/shared.h"
@@ -20,13 +22,11 @@ struct vec4 {
   Channels lanes;
   explicit vec4(float all) : lanes{all, all, all, all} {}
   explicit vec4(Channels c) : lanes(c) {}
-  vec4& operator+=(const vec4& other) { return lanes += other.lanes, *this; }
+  friend vec4 operator+(const vec4& a, const vec4& b) { return vec4(a.lanes + b.lanes); }
+  friend vec4 operator*(const vec4& a, float b) { return vec4(a.lanes * b); }
   friend vec4 operator/(const vec4& a, float b) { return vec4(a.lanes / b); }
   explicit operator glm::vec4() const { return {lanes[0], lanes[1], lanes[2], lanes[3]}; }
 };
-[[nodiscard]] inline vec4 mix(const vec4& a, const vec4& b, float share) {
-  return vec4(a.lanes * (1.0f - share) + b.lanes * share);
-}
 
 struct TexelSource {
   const TexelBlocks* blocks;
@@ -44,10 +44,24 @@ struct TexelSource {
 
 [[nodiscard, gnu::always_inline]] inline vec4 texel_at(const TexelSource& source, int i, bool is_color) {
   const glm::u8vec4& t = source.blocks->data()[i];
-  const auto a = as_float(t.a);
-  if (!is_color) return vec4(Channels{as_float(t.r), as_float(t.g), as_float(t.b), a} / 255.0f);
+  if (!is_color) return vec4(Channels{as_float(t.r), as_float(t.g), as_float(t.b), as_float(t.a)});
   const float* const linear = source.linear_from_srgb8;
-  return vec4(Channels{linear[t.r], linear[t.g], linear[t.b], a / 255.0f});
+  return vec4(Channels{linear[t.r], linear[t.g], linear[t.b], 0.0f});
+}
+[[nodiscard]] constexpr float texel_scale(bool is_color) {
+  return is_color ? 1.0f : 255.0f;
+}
+
+// The operations of core/trace/lanes/texture.h.
+[[nodiscard]] inline float level_of(float texels) {
+  const auto bits = std::bit_cast<std::uint32_t>(texels);
+  const int exponent = static_cast<int>(bits - 0x3f3504f3u) >> 23;
+  const auto m = std::bit_cast<float>(bits - (static_cast<std::uint32_t>(exponent) << 23));
+  const float s = (m - 1.0f) / (m + 1.0f), s2 = s * s;
+  constexpr float k2ByLn2 = 2.8853901f;
+  float sum = k2ByLn2 / 7.0f;
+  for (const float odd : {5.0f, 3.0f, 1.0f}) sum = sum * s2 + k2ByLn2 / odd;
+  return as_float(exponent) + s * sum;
 }
 
 // Always inlined: a tap is a few instructions, and GLSL passes structs by value.

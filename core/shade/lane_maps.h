@@ -49,7 +49,7 @@ struct TexturePoints {
   using Column = float[kMostLanes];
   alignas(64) Column uv[2];
   alignas(64) Column change_x[2], change_y[2];  // of uv from a pixel to the next; zero: not filtered
-  alignas(64) float texel[12][kMostLanes][4];   // output, by texture: RGBA; a colour's A is not set
+  alignas(64) Column texel[12][4];              // output, by texture: RGBA; a colour's A is not set
 };
 
 // Reads the place's textures of which some are in `maps`.

@@ -1,5 +1,4 @@
-// RGBA texels of 8 bits as rows of floats, from 0 to 1, in the namespace of lanes that includes it:
-// one, or those of two levels of a texture side by side.
+// Sums of RGBA texels of 8 bits, in the namespace of lanes that includes it.
 #pragma once
 
 #if defined(__SSE4_1__)
@@ -18,110 +17,92 @@ namespace {
 
 using TexelRow [[gnu::vector_size(16), gnu::may_alias]] = float;
 
-inline TexelRow load_row(const float* p) {
-  return *reinterpret_cast<const TexelRow*>(p);
-}
-inline void store_row(float* p, TexelRow row) {
-  *reinterpret_cast<TexelRow*>(p) = row;
-}
-
 inline std::uint32_t texel_bits(const void* from, std::uint32_t i) {
   std::uint32_t bits;
   __builtin_memcpy(&bits, static_cast<const char*>(from) + 4 * std::size_t{i}, 4);
   return bits;
 }
 
-// c / 255 for c from 0 to 255, the same bits without a division: the first product is exact.
-inline constexpr float kBy255 = 0x1.01p-8f, kBy255Rest = 0x1.010102p-24f;
-constexpr bool is_exact() {
-  for (int c = 0; c < 256; ++c) {
-    const auto x = as_float(c);
-    if (x * kBy255 + x * kBy255Rest != x / 255.0f) return false;
-  }
-  return true;
-}
-static_assert(is_exact());
+// Four texels: above left and right, below left and right; and their shares, whole numbers below 2^15.
+struct TexelQuad {
+  std::uint32_t bits[4];
+  std::uint32_t left_right[2];  // above and below: the left one's share in the lower half
+};
 
-inline TexelRow bytes_of(std::uint32_t bits) {
+// What texels times their shares add up to, by channel, above and below: whole numbers' bits, of colours
+// floats.
+struct TexelSum {
+  alignas(32) float above[4];
+  float below[4];
+
+  void clear() {
+    auto* const to = reinterpret_cast<TexelRow*>(this);
+    to[0] = to[1] = TexelRow{};
+  }
+};
+
 #if defined(__SSE4_1__)
-  return TexelRow(_mm_cvtepi32_ps(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(as_int(bits)))));
-#elif defined(__ARM_NEON)
-  const uint8x8_t bytes = vreinterpret_u8_u32(vdup_n_u32(bits));
-  return TexelRow(vcvtq_f32_u32(vmovl_u16(vget_low_u16(vmovl_u8(bytes)))));
-#else
-  return TexelRow{as_float(bits & 255u), as_float(bits >> 8 & 255u), as_float(bits >> 16 & 255u),
-                  as_float(bits >> 24)};
-#endif
+
+// Texels side by side, channel by channel.
+inline __m128i left_right(std::uint32_t left, std::uint32_t right) {
+  return _mm_unpacklo_epi8(_mm_cvtsi32_si128(as_int(left)), _mm_cvtsi32_si128(as_int(right)));
 }
 
-inline TexelRow texel_row(std::uint32_t bits) {
-  const TexelRow bytes = bytes_of(bits);
-  return bytes * kBy255 + bytes * kBy255Rest;
-}
-
-// Without alpha.
-inline TexelRow color_row(std::uint32_t bits, const float* linear) {
-  return TexelRow{linear[bits & 255u], linear[bits >> 8 & 255u], linear[bits >> 16 & 255u], 0.0f};
-}
-
-inline TexelRow mixed(TexelRow a, TexelRow b, float share) {
-  return a * (1.0f - share) + b * share;
-}
-
+inline void add_texels(const TexelQuad& q, TexelSum& sum) {
+  const __m128i above = left_right(q.bits[0], q.bits[1]), below = left_right(q.bits[2], q.bits[3]);
+  const __m128i of_above = _mm_set1_epi32(as_int(q.left_right[0])),
+                of_below = _mm_set1_epi32(as_int(q.left_right[1]));
 #if defined(__AVX2__)
-
-// Shares of two rows.
-struct TexelWeights {
-  __m256 second, first;
-  void set(float a, float b) {
-    second = _mm256_set_m128(_mm_set1_ps(b), _mm_set1_ps(a));
-    first = _mm256_set1_ps(1.0f) - second;
-  }
-};
-
-struct TexelRows {
-  __m256 v;
-  [[nodiscard]] TexelRow first() const { return TexelRow(_mm256_castps256_ps128(v)); }
-  [[nodiscard]] TexelRow second() const { return TexelRow(_mm256_extractf128_ps(v, 1)); }
-};
-inline TexelRows texel_rows(std::uint32_t a, std::uint32_t b) {
-  const __m128i bits = _mm_cvtsi64_si128(static_cast<long long>(a | std::uint64_t{b} << 32));
-  const __m256 bytes = _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(bits));
-  return {bytes * _mm256_set1_ps(kBy255) + bytes * _mm256_set1_ps(kBy255Rest)};
-}
-inline TexelRows color_rows(std::uint32_t a, std::uint32_t b, const float* linear) {
-  return {_mm256_set_m128(__m128(color_row(b, linear)), __m128(color_row(a, linear)))};
-}
-inline TexelRows mixed(const TexelRows& a, const TexelRows& b, const TexelWeights& share) {
-  return {a.v * share.first + b.v * share.second};
+  auto* const to = reinterpret_cast<__m256i*>(&sum);
+  const __m256i bytes = _mm256_cvtepu8_epi16(_mm_unpacklo_epi64(above, below));
+  *to = _mm256_add_epi32(*to, _mm256_madd_epi16(bytes, _mm256_set_m128i(of_below, of_above)));
+#else
+  auto* const to = reinterpret_cast<__m128i*>(&sum);
+  to[0] = _mm_add_epi32(to[0], _mm_madd_epi16(_mm_cvtepu8_epi16(above), of_above));
+  to[1] = _mm_add_epi32(to[1], _mm_madd_epi16(_mm_cvtepu8_epi16(below), of_below));
+#endif
 }
 
 #else
 
-struct TexelWeights {
-  float fine, coarse;
-  void set(float a, float b) {
-    fine = a;
-    coarse = b;
-  }
-};
+using TexelWords [[gnu::vector_size(16), gnu::may_alias]] = std::uint32_t;
 
-struct TexelRows {
-  TexelRow a, b;
-  [[nodiscard]] TexelRow first() const { return a; }
-  [[nodiscard]] TexelRow second() const { return b; }
-};
-inline TexelRows texel_rows(std::uint32_t a, std::uint32_t b) {
-  return {texel_row(a), texel_row(b)};
-}
-inline TexelRows color_rows(std::uint32_t a, std::uint32_t b, const float* linear) {
-  return {color_row(a, linear), color_row(b, linear)};
-}
-inline TexelRows mixed(const TexelRows& p, const TexelRows& q, const TexelWeights& share) {
-  return {mixed(p.a, q.a, share.fine), mixed(p.b, q.b, share.coarse)};
+inline void add_texels(const TexelQuad& q, TexelSum& sum) {
+  auto* const to = reinterpret_cast<TexelWords*>(&sum);
+  const auto bytes = [&](int k) {
+    const std::uint32_t bits = q.bits[k];
+    return TexelWords{bits & 255u, bits >> 8 & 255u, bits >> 16 & 255u, bits >> 24};
+  };
+  for (int row = 0; row < 2; ++row) {
+    const std::uint32_t left = q.left_right[row] & 0xffffu, right = q.left_right[row] >> 16;
+    to[row] = to[row] + (bytes(2 * row) * left + bytes(2 * row + 1) * right);
+  }
 }
 
 #endif
+
+// Without alpha. linear: of the 256 values of a channel.
+inline void add_colors(const TexelQuad& q, const float* linear, TexelSum& sum) {
+  const auto color = [&](int k) {
+    const std::uint32_t bits = q.bits[k];
+    return TexelRow{linear[bits & 255u], linear[bits >> 8 & 255u], linear[bits >> 16 & 255u], 0.0f};
+  };
+#if defined(__AVX2__)
+  const __m256i shares =
+      _mm256_set_m128i(_mm_set1_epi32(as_int(q.left_right[1])), _mm_set1_epi32(as_int(q.left_right[0])));
+  const __m256 left = _mm256_cvtepi32_ps(_mm256_and_si256(shares, _mm256_set1_epi32(0xffff))),
+               right = _mm256_cvtepi32_ps(_mm256_srli_epi32(shares, 16));
+  auto* const to = reinterpret_cast<__m256*>(&sum);
+  *to = *to + (_mm256_set_m128(__m128(color(2)), __m128(color(0))) * left +
+               _mm256_set_m128(__m128(color(3)), __m128(color(1))) * right);
+#else
+  auto* const to = reinterpret_cast<TexelRow*>(&sum);
+  for (int row = 0; row < 2; ++row) {
+    const float left = as_float(q.left_right[row] & 0xffffu), right = as_float(q.left_right[row] >> 16);
+    to[row] = to[row] + (color(2 * row) * left + color(2 * row + 1) * right);
+  }
+#endif
+}
 
 }  // namespace
 }  // namespace pinocchio::PINOCCHIO_LANES

@@ -1,7 +1,8 @@
 // Source of GLSL and of C++ (bench/one_ray/shared_maps.h): texture look-ups. Each side defines TexelSource and
 // level_at(source, size, level): the level's first texel, width and height; texel_place(width, x, y): a texel's place
-// behind the first; and texel_at(source, i, is_color): the i-th texel, 0 to 1, colour (sRGB) made linear. The lanes have
-// code of their own (core/trace/lanes/texture.h).
+// behind the first; texel_at(source, i, is_color): the i-th texel, colour (sRGB) made linear; and
+// texel_scale(is_color): what texel_at gives for 1; and
+// level_of(texels): their logarithm to base 2. The lanes have code of their own (core/trace/lanes/texture.h).
 
 const int kWrapRepeat = 0;
 const int kWrapMirror = 1;
@@ -42,10 +43,21 @@ SHARED vec2 within_periods(TextureParams use, vec2 uv) {
   return vec2(within_period(uv.x, use.wrap_u), within_period(uv.y, use.wrap_v));
 }
 
-// uv: within its periods. Bilinear by hand: hardware filters with 8 bits of weight, and the two sides would
-// differ. (The level is found each time: where it is carried through the loop over taps, Mesa 22's llvmpipe
-// compiles for minutes.)
-SHARED vec4 sample_level(TextureParams use, vec2 uv, int level, bool is_color) {
+// The shares of a tap's texels are whole numbers and add up to this, so that the sums of 8-bit texels are exact,
+// whatever the order. (Hardware filters with 8 bits of share, and the two sides would differ.)
+const float kWholeShare = 8192.0f;
+
+SHARED float whole_share(float share) { return floor(share + 0.5f); }
+
+// Texels times their shares, above and below their points.
+struct TexelSums {
+  vec4 above;
+  vec4 below;
+};
+
+// Adds the four texels about a point of a level. uv: within its periods. all: what their shares add up to. (The level
+// is found each time: where it is carried through the loop over taps, Mesa 22's llvmpipe compiles for minutes.)
+SHARED TexelSums with_level(TexelSums sums, TextureParams use, vec2 uv, int level, float all, bool is_color) {
   ivec3 of_level = level_at(use.source, use.size, level);
   int first = of_level.x;
   ivec2 size = ivec2(of_level.y, of_level.z);
@@ -54,20 +66,33 @@ SHARED vec4 sample_level(TextureParams use, vec2 uv, int level, bool is_color) {
   ivec2 b = ivec2(base);
   int x = wrapped_texel(b.x, size.x, use.wrap_u);
   int y = wrapped_texel(b.y, size.y, use.wrap_v);
-  if (use.nearest) return texel_at(use.source, first + texel_place(size.x, x, y), is_color);
+  if (use.nearest)
+    return TexelSums(sums.above + texel_at(use.source, first + texel_place(size.x, x, y), is_color) * all, sums.below);
   int right = wrapped_texel(b.x + 1, size.x, use.wrap_u);
   int below = wrapped_texel(b.y + 1, size.y, use.wrap_v);
   vec2 f = at - base;
-  return mix(mix(texel_at(use.source, first + texel_place(size.x, x, y), is_color),
-                 texel_at(use.source, first + texel_place(size.x, right, y), is_color), f.x),
-             mix(texel_at(use.source, first + texel_place(size.x, x, below), is_color),
-                 texel_at(use.source, first + texel_place(size.x, right, below), is_color), f.x),
-             f.y);
+  float of_below = whole_share(all * f.y);
+  float of_above = all - of_below;
+  float of_right_above = whole_share(of_above * f.x);
+  float of_right_below = whole_share(of_below * f.x);
+  return TexelSums(
+      sums.above +
+          (texel_at(use.source, first + texel_place(size.x, x, y), is_color) * (of_above - of_right_above) +
+           texel_at(use.source, first + texel_place(size.x, right, y), is_color) * of_right_above),
+      sums.below +
+          (texel_at(use.source, first + texel_place(size.x, x, below), is_color) * (of_below - of_right_below) +
+           texel_at(use.source, first + texel_place(size.x, right, below), is_color) * of_right_below));
+}
+
+SHARED TexelSums no_texels() { return TexelSums(vec4(0.0f), vec4(0.0f)); }
+
+SHARED vec4 mean_of(TexelSums sums, float taps, bool is_color) {
+  return (sums.above + sums.below) / (kWholeShare * taps * texel_scale(is_color));
 }
 
 // From the largest level, not filtered.
 SHARED vec4 sample_point(TextureParams use, vec2 uv, bool is_color) {
-  return sample_level(use, within_periods(use, uv), 0, is_color);
+  return mean_of(with_level(no_texels(), use, within_periods(use, uv), 0, kWholeShare, is_color), 1.0f, is_color);
 }
 
 const float kMostTaps = 8.0f;
@@ -86,16 +111,15 @@ SHARED vec4 sample_texture(TextureParams use, TexturePoint point, bool is_color)
     return sample_point(use, point.uv, is_color);
   float shorter = max(abs(x.x * y.y - x.y * y.x) / longer, 1.0f);  // the parallelogram's height
   float taps = clamp(ceil(longer / shorter), 1.0f, kMostTaps);
-  float lod = clamp(log2(min(longer / taps, 65536.0f)), 0.0f, float(use.levels - 1));
+  float lod = clamp(level_of(min(longer / taps, 65536.0f)), 0.0f, float(use.levels - 1));
   int level = int(lod);
-  float part = lod - float(level);
+  float of_second = whole_share(kWholeShare * (lod - float(level)));
   vec2 along = xx > yy ? point.change_x : point.change_y;
-  vec4 sum = vec4(0.0f);
+  TexelSums sums = no_texels();
   for (float k = 0.5f; k < taps; k += 1.0f) {
     vec2 uv = within_periods(use, point.uv + along * (k / taps - 0.5f));
-    vec4 texel = sample_level(use, uv, level, is_color);
-    if (part > 0.0f) texel = mix(texel, sample_level(use, uv, level + 1, is_color), part);
-    sum += texel;
+    sums = with_level(sums, use, uv, level, kWholeShare - of_second, is_color);
+    if (of_second > 0.0f) sums = with_level(sums, use, uv, level + 1, of_second, is_color);
   }
-  return sum / taps;
+  return mean_of(sums, taps, is_color);
 }

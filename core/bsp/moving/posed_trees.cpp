@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/base/prefetch.h"
 #include "core/bsp/build/build.h"
 #include "core/bsp/moving/top_level.h"
 #include "core/parallel/workers.h"
@@ -288,9 +289,9 @@ class Trees {
     const auto ahead = [&](std::size_t by) -> const glm::uvec3& {
       return mesh_.triangles[order[std::min(i + by, order.size() - 1)]];
     };
-    __builtin_prefetch(&ahead(kCorners));
+    prefetch(&ahead(kCorners));
     const glm::uvec3& soon = ahead(kPositions);
-    for (int corner = 0; corner < 3; ++corner) __builtin_prefetch(&mesh_.positions[soon[corner]]);
+    for (int corner = 0; corner < 3; ++corner) prefetch(&mesh_.positions[soon[corner]]);
   }
 
   // Stores triangles as posed. Those without an area are never hit, as if the tree did not have them.

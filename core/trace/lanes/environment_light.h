@@ -1,6 +1,7 @@
 // Part of walk/kernel.h's files: the environment's light along directions, and directions that find it.
 #pragma once
 
+#include "core/base/prefetch.h"
 #include "core/scene/sky/brightness.h"
 #include "core/trace/lanes/environment_params.h"
 #include "core/trace/lanes/shared.h"
@@ -65,7 +66,7 @@ inline void fetch(const T* from, Int index, Mask lanes) {
   alignas(64) std::uint32_t at[kWidth];
   index.store(at);
   for (unsigned waiting = lanes.bits(); waiting != 0; waiting &= waiting - 1)
-    __builtin_prefetch(from + at[__builtin_ctz(waiting)]);
+    prefetch(from + at[__builtin_ctz(waiting)]);
 }
 
 // A place in the picture, and its density per unit of u times v.

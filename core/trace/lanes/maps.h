@@ -109,12 +109,8 @@ inline VertexQuad weighted_quad(const SceneArrays& scene, const glm::vec4* quads
   return {{of[0], of[1], of[2]}, of[3]};
 }
 
-inline vec4 texels_of(const float (&rows)[kMostLanes][4]) {
-  const float* of[kWidth];
-  for (unsigned lane = 0; lane < kWidth; ++lane) of[lane] = rows[lane];
-  Float columns[4];
-  load_columns(of, columns);
-  return vec4(columns);
+inline vec4 texels_of(const TexturePoints::Column (&columns)[4]) {
+  return {Float::load(columns[0]), Float::load(columns[1]), Float::load(columns[2]), Float::load(columns[3])};
 }
 
 // A material's texels at the points where some of them are; white until they are read.

@@ -92,6 +92,7 @@ inline vec2 operator-(const vec2& a, const vec2& b) {
 struct vec4 {
   Float x, y, z, w;
   vec4() = default;
+  vec4(Float a, Float b, Float c, Float d) : x(a), y(b), z(c), w(d) {}
   explicit vec4(Float all) : x(all), y(all), z(all), w(all) {}
   explicit vec4(const glm::vec4& all) : x(all.x), y(all.y), z(all.z), w(all.w) {}
   explicit vec4(const Float (&c)[4]) : x(c[0]), y(c[1]), z(c[2]), w(c[3]) {}

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "core/base/prefetch.h"
 #include "core/trace/lanes/environment.h"
 #include "core/trace/lanes/glass.h"
 #include "core/trace/lanes/holes.h"
@@ -154,18 +155,20 @@ inline void for_each_ahead(const RayQueue& rays, std::size_t first, Fetch fetch)
 }
 
 inline void fetch_triangles(const SceneArrays& scene, const RayQueue& rays, std::size_t first) {
+  if (!scene.is_large) return;
   for_each_ahead(rays, first, [&](std::uint32_t triangle) {
-    __builtin_prefetch(scene.triangles + triangle);
-    __builtin_prefetch(scene.triangle_materials + triangle);
+    prefetch(scene.triangles + triangle);
+    prefetch(scene.triangle_materials + triangle);
   });
 }
 
 inline void fetch_corners(const SceneArrays& scene, const RayQueue& rays, std::size_t first) {
+  if (!scene.is_large) return;
   for_each_ahead(rays, first, [&](std::uint32_t triangle) {
     const glm::uvec3& corners = scene.triangles[triangle];
     for (const std::uint32_t corner : {corners.x, corners.y, corners.z}) {
-      __builtin_prefetch(scene.positions + corner);
-      __builtin_prefetch(scene.normals + corner);
+      prefetch(scene.positions + corner);
+      prefetch(scene.normals + corner);
     }
   });
 }
@@ -253,7 +256,9 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
       sampling = sampled_pixel(bounce.options->sampling, whole_picture_pixel(bounce, pixel));
     const SampledPixel* const samples = kSampled ? &*sampling : nullptr;
     LaneLobe lobe;
-    if (m.microfacet != 0) {
+    // Without colours, shadow rays of mapped points are chosen without the material.
+    if (m.microfacet != 0 &&
+        (colors || !cuts || (m.reflects | m.transmits | (m.microfacet & ~m.mapped)) != 0)) {
       view_microfacets(s, m);
       if constexpr (kSampled)
         if (bounce.lobes) lobe = sample_lobe(s, m, own, *samples, lanes, bounce);

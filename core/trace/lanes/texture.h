@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/base/prefetch.h"
 #include "core/shade/lane_maps.h"
 #include "core/simd/texels.h"
 #include "core/trace/lanes/shared.h"
@@ -28,28 +29,40 @@ inline Float wrapped_texel(Float i, Float n, Wrap wrap) {
   return min(max(i, Float(0.0f)), n - Float(1.0f));
 }
 
-// The levels that each lane reads. Lane by lane, as logarithms are the library's.
-struct LaneLevels {
-  alignas(64) std::uint32_t first[2][kMostLanes]{};
-  alignas(64) float width[2][kMostLanes]{}, height[2][kMostLanes]{};
-  alignas(64) float part[kMostLanes]{};  // of the second
+// log2 of a finite positive number.
+inline Float level_of(Float texels) {
+  const Int bits = bits_of(texels), exponent = shift_right<23>(bits - Int(0x3f3504f3u));  // of sqrt(1/2)
+  const Float m = from_bits(bits - shift_left<23>(exponent)), one(1.0f);
+  const Float s = (m - one) / (m + one), s2 = s * s;
+  // The series of artanh; what is left out is below 2^-20.
+  constexpr float k2ByLn2 = 2.8853901f;
+  Float sum(k2ByLn2 / 7.0f);
+  for (const float odd : {5.0f, 3.0f, 1.0f}) sum = sum * s2 + Float(k2ByLn2 / odd);
+  return to_float(exponent) + s * sum;
+}
 
-  LaneLevels(const TexturePlace& place, unsigned lanes, unsigned filtered, const float* texels_apart) {
-    for (unsigned waiting = lanes; waiting != 0; waiting &= waiting - 1) {
-      const int lane = __builtin_ctz(waiting);
-      const float most = as_float(place.levels - 1);
-      float lod = 0.0f;
-      if (filtered >> lane & 1) lod = ::log2f(texels_apart[lane] < 65536.0f ? texels_apart[lane] : 65536.0f);
-      lod = lod < 0.0f ? 0.0f : (most < lod ? most : lod);
-      const int fine = as_int(lod);
-      part[lane] = lod - as_float(fine);
+// The two levels that each lane reads.
+struct LaneLevels {
+  Int first[2]{Int(0u), Int(0u)};
+  Float width[2]{Float(1.0f), Float(1.0f)}, height[2]{Float(1.0f), Float(1.0f)};
+  Float part;  // of the second
+
+  // texels_apart: the distance of taps where the texture is filtered.
+  LaneLevels(const TexturePlace& place, Mask lanes, Mask filtered, Float texels_apart) {
+    const Float most(as_float(place.levels - 1)), zero(0.0f);
+    const Float lod =
+        select(filtered, min(max(level_of(min(texels_apart, Float(65536.0f))), zero), most), zero);
+    const Float fine = floor(lod);
+    part = lod - fine;
+    for_each_distinct(to_int(fine), lanes, [&](std::uint32_t level, Mask same) {
       for (int i = 0; i < 2; ++i) {
-        const TextureLevel& level = place.level[fine + i < place.levels ? fine + i : fine];
-        first[i][lane] = level.first;
-        width[i][lane] = level.width;
-        height[i][lane] = level.height;
+        const TextureLevel& of =
+            place.level[as_int(level) + i < place.levels ? as_int(level) + i : as_int(level)];
+        first[i] = select(same, Int(of.first), first[i]);
+        width[i] = select(same, Float(of.width), width[i]);
+        height[i] = select(same, Float(of.height), height[i]);
       }
-    }
+    });
   }
 };
 
@@ -70,22 +83,26 @@ struct LanePlaces {
   }
 };
 
-// The four texels about a point, and its place among them.
-struct LaneQuads {
-  alignas(64) std::uint32_t texel[4][kMostLanes];  // above left and right, below left and right
-  alignas(64) float x[kMostLanes], y[kMostLanes];
+// Shares of texels are whole numbers; those of a tap add up to this.
+constexpr float kWholeShare = 8192.0f;
 
-  [[gnu::always_inline]] inline void find(const TexturePlace& place, Float u, Float v, Int first, Float width,
-                                          Float height) {
-    const Float one(1.0f);
+// The four texels about a point, and their shares, as add_texels wants them.
+struct LaneQuads {
+  unsigned lanes;
+  alignas(64) std::uint32_t texel[4][kMostLanes];
+  alignas(64) std::uint32_t left_right[2][kMostLanes];
+
+  // all: what the shares add up to.
+  [[gnu::always_inline]] inline void find(const TexturePlace& place, Float u, Float v,
+                                          const LaneLevels& levels, int level, Float all) {
+    const Float one(1.0f), zero(0.0f), width = levels.width[level], height = levels.height[level];
+    const Int first = levels.first[level];
     const LanePlaces places(width);
     if (place.nearest) {
       const Int at = first + places.of_row(wrapped_texel(floor(v * height), height, place.wrap_v)) +
                      LanePlaces::along_row(wrapped_texel(floor(u * width), width, place.wrap_u));
       for (auto& column : texel) at.store(column);
-      Float(0.0f).store(x);
-      Float(0.0f).store(y);
-      return;
+      return set_shares(all, zero, zero);
     }
     const Float at_x = u * width - Float(0.5f), at_y = v * height - Float(0.5f);
     const Float base_x = floor(at_x), base_y = floor(at_y);
@@ -97,52 +114,42 @@ struct LaneQuads {
     (above + right).store(texel[1]);
     (below + left).store(texel[2]);
     (below + right).store(texel[3]);
-    (at_x - base_x).store(x);
-    (at_y - base_y).store(y);
+    set_shares(all, at_x - base_x, at_y - base_y);
   }
-};
 
-// Four texels, row(0) to row(3), mixed by the place among them.
-template <class Row, class Share>
-[[gnu::always_inline]] inline auto mixed_quad(const Share& x, const Share& y, Row row) {
-  return mixed(mixed(row(0), row(1), x), mixed(row(2), row(3), x), y);
-}
+  // Two texels of each quad: in most quads, the others are in the same blocks.
+  void fetch(const void* texels) const {
+    for (unsigned waiting = lanes; waiting != 0; waiting &= waiting - 1)
+      for (const int k : {0, 3})
+        prefetch(static_cast<const char*>(texels) + 4 * std::size_t{texel[k][__builtin_ctz(waiting)]});
+  }
 
-// A tap of each lane of `on`, added to the textures' sums.
-struct Taps {
-  LaneQuads quads[2];  // of the finer level, and of the coarser one
+  [[nodiscard]] TexelQuad of(const void* texels, int lane) const {
+    const auto bits = [&](int k) { return texel_bits(texels, texel[k][lane]); };
+    return {{bits(0), bits(1), bits(2), bits(3)}, {left_right[0][lane], left_right[1][lane]}};
+  }
 
-  [[gnu::always_inline]] inline void add(const TexturePlace& place, const LaneLevels& levels, unsigned on,
-                                         unsigned between, unsigned maps, TexturePoints& p) const {
-    for (; on != 0; on &= on - 1) {
-      const int lane = __builtin_ctz(on);
-      const bool both = (between >> lane & 1u) != 0;
-      const LaneQuads &fine = quads[0], &coarse = quads[1];
-      const float part = levels.part[lane], fine_x = fine.x[lane], fine_y = fine.y[lane];
-      TexelWeights x, y;
-      x.set(fine_x, coarse.x[lane]);
-      y.set(fine_y, coarse.y[lane]);
-      for (int i = 0; i < place.count; ++i) {
-        const LaneTexture& t = place.textures[i];
-        if ((t.maps & maps) == 0) continue;
-        const float* const linear = t.linear_from_srgb8;
-        const auto bits = [&](int k) { return texel_bits(t.texels, fine.texel[k][lane]); };
-        const auto coarse_bits = [&](int k) { return texel_bits(t.texels, coarse.texel[k][lane]); };
-        TexelRow sum = load_row(p.texel[i][lane]);
-        if (both) {
-          const TexelRows at =
-              linear ? mixed_quad(x, y, [&](int k) { return color_rows(bits(k), coarse_bits(k), linear); })
-                     : mixed_quad(x, y, [&](int k) { return texel_rows(bits(k), coarse_bits(k)); });
-          sum = sum + (at.first() * (1.0f - part) + at.second() * part);
-        } else {
-          sum = sum + (linear ? mixed_quad(fine_x, fine_y, [&](int k) { return color_row(bits(k), linear); })
-                              : mixed_quad(fine_x, fine_y, [&](int k) { return texel_row(bits(k)); }));
-        }
-        store_row(p.texel[i][lane], sum);
-      }
+ private:
+  [[gnu::always_inline]] inline void set_shares(Float all, Float x, Float y) {
+    const Float half(0.5f);
+    const Float below = floor(all * y + half);
+    for (int row = 0; row < 2; ++row) {
+      const Float both = row == 0 ? all - below : below, right = floor(both * x + half);
+      (to_int(both - right) | shift_left<16>(to_int(right))).store(left_right[row]);
     }
   }
 };
+
+inline void add_texture(const LaneTexture& texture, const LaneQuads& quads, TexelSum* sums) {
+  const float* const linear = texture.linear_from_srgb8;
+  for (unsigned waiting = quads.lanes; waiting != 0; waiting &= waiting - 1) {
+    const int lane = __builtin_ctz(waiting);
+    const TexelQuad quad = quads.of(texture.texels, lane);
+    linear ? add_colors(quad, linear, sums[lane]) : add_texels(quad, sums[lane]);
+  }
+}
+
+constexpr int kMostTaps = 8;
 
 // How much of a texture's largest level a pixel sees, at the points of some lanes.
 struct LaneFootprints {
@@ -160,7 +167,7 @@ struct LaneFootprints {
                                 : Mask::from_bits(0);
     const Float shorter = max(abs(x0 * y1 - x1 * y0) / longer, one);
     const Float many = -floor(-(longer / shorter));
-    taps = select(filtered, min(max(many, one), Float(8.0f)), one);
+    taps = select(filtered, min(max(many, one), Float(as_float(kMostTaps))), one);
     along_u = select(filtered, select(yy < xx, x.x, y.x), zero);
     along_v = select(filtered, select(yy < xx, x.y, y.y), zero);
   }
@@ -202,37 +209,53 @@ inline Mask all_green(const TexturePlace& place, const LaneTexture& texture, con
   const LaneFootprints footprints(place, vec2(Float::load(p.change_x[0]), Float::load(p.change_x[1])),
                                   vec2(Float::load(p.change_y[0]), Float::load(p.change_y[1])), lanes);
   const auto& [filtered, longer, taps, along_u, along_v] = footprints;
-  const Float zero(0.0f);
+  const LaneLevels levels(place, lanes, filtered, longer / taps);
+  const Float zero(0.0f), whole(kWholeShare), u = Float::load(p.uv[0]), v = Float::load(p.uv[1]);
+  const Float of_second = floor(whole * levels.part + Float(0.5f));
+  const unsigned between = (zero < of_second).bits();
 
-  alignas(64) float texels_apart[kMostLanes];
-  (longer / taps).store(texels_apart);
-  const LaneLevels levels(place, wanted, filtered.bits(), texels_apart);
-  const unsigned between = (lanes & (zero < Float::load(levels.part))).bits();
-
-  for (int i = 0; i < place.count; ++i)
-    for (unsigned lane = 0; lane < kWidth; ++lane) store_row(p.texel[i][lane], TexelRow{});
-  const Float u = Float::load(p.uv[0]), v = Float::load(p.uv[1]);
-  Taps tap;
+  // All quads are found, and their texels fetched, before the first is read: memory is what takes the time.
+  LaneQuads list[2 * kMostTaps];
+  int count = 0;
+  const auto for_each_texture = [&](auto&& visit) {
+    for (int i = 0; i < place.count; ++i)
+      if ((place.textures[i].maps & maps) != 0) visit(i);
+  };
   for (float k = 0.5f;; k += 1.0f) {
     const unsigned on = (lanes & (Float(k) < taps)).bits();
     if (on == 0) break;
     const Float share = Float(k) / taps - Float(0.5f);
     const Float at_u = within_period(u + along_u * share, place.wrap_u);
     const Float at_v = within_period(v + along_v * share, place.wrap_v);
-    for (int i = 0; i < 2; ++i)
-      if (i == 0 || (on & between) != 0)
-        tap.quads[i].find(place, at_u, at_v, Int::load(levels.first[i]), Float::load(levels.width[i]),
-                          Float::load(levels.height[i]));
-    tap.add(place, levels, on, between, maps, p);
+    for (int i = 0; i < 2; ++i) {
+      LaneQuads& quads = list[count];
+      quads.lanes = i == 0 ? on : on & between;
+      if (quads.lanes == 0) continue;
+      quads.find(place, at_u, at_v, levels, i, i == 0 ? whole - of_second : of_second);
+      for_each_texture([&](int t) { quads.fetch(place.textures[t].texels); });
+      ++count;
+    }
   }
-  alignas(64) float count[kMostLanes];
-  taps.store(count);
-  for (unsigned waiting = wanted; waiting != 0; waiting &= waiting - 1) {
-    const int lane = __builtin_ctz(waiting);
-    if (count[lane] == 1.0f) continue;
-    for (int i = 0; i < place.count; ++i)
-      store_row(p.texel[i][lane], load_row(p.texel[i][lane]) / count[lane]);
-  }
+
+  for_each_texture([&](int t) {
+    const LaneTexture& texture = place.textures[t];
+    TexelSum sums[kWidth];
+    for (TexelSum& sum : sums) sum.clear();
+    for (int i = 0; i < count; ++i) add_texture(texture, list[i], sums);
+    const float* rows[2][kWidth];
+    for (unsigned lane = 0; lane < kWidth; ++lane) {
+      rows[0][lane] = sums[lane].above;
+      rows[1][lane] = sums[lane].below;
+    }
+    Float above[4], below[4];
+    load_columns(rows[0], above);
+    load_columns(rows[1], below);
+    const bool is_color = texture.linear_from_srgb8 != nullptr;
+    for (int c = 0; c < 4; ++c) {
+      const Float sum = is_color ? above[c] + below[c] : to_float(bits_of(above[c]) + bits_of(below[c]));
+      (sum / (whole * taps * Float(is_color ? 1.0f : 255.0f))).store(p.texel[t][c]);
+    }
+  });
 }
 
 }  // namespace

@@ -97,6 +97,9 @@ Bounce lights_alone(const LightGroup& group, const Bounce& step) {
   return alone;
 }
 
+// Fetching ahead costs a frame of a smaller mesh 2 to 4 %.
+constexpr std::size_t kLargeMesh = 65536;
+
 SceneArrays SceneArrays::of(const Mesh& mesh, const LaneMapsOf& maps) {
   return {mesh.positions.data(),
           mesh.normals.data(),
@@ -105,7 +108,8 @@ SceneArrays SceneArrays::of(const Mesh& mesh, const LaneMapsOf& maps) {
           mesh.materials.data(),
           maps.data(),
           mesh.colors.empty() ? nullptr : mesh.colors.data(),
-          mesh.tangents.empty() ? nullptr : mesh.tangents.data()};
+          mesh.tangents.empty() ? nullptr : mesh.tangents.data(),
+          mesh.triangles.size() > kLargeMesh};
 }
 
 void TilePlan::set_view(const shared::ViewParams& from, const RayModel* rays) {

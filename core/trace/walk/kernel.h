@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/base/prefetch.h"
 #include "core/bsp/tree.h"
 #include "core/simd/lanes.h"
 #include "core/trace/lanes/lane_steps.h"
@@ -92,7 +93,7 @@ inline void walk(const BspTree& tree, const Group<kPackets>& group, const Planes
       if (!node.is_leaf()) {
         const int axis = node.axis();
         const std::uint32_t low = node.first_child();
-        __builtin_prefetch(nodes + low);
+        prefetch(nodes + low);
         const std::uint32_t first = negative[axis] ? low + 1 : low, second = negative[axis] ? low : low + 1;
         const Float split(node.split());
         Float early[kPackets], late[kPackets];
@@ -114,8 +115,8 @@ inline void walk(const BspTree& tree, const Group<kPackets>& group, const Planes
           StackEntry<kPackets>& entry = stack[top++];
           entry.node = second;
           const BspNode& later = nodes[second];  // loaded already: on its sibling's cache line
-          __builtin_prefetch(later.is_leaf() ? static_cast<const void*>(references + later.first_reference())
-                                             : static_cast<const void*>(nodes + later.first_child()));
+          prefetch(later.is_leaf() ? static_cast<const void*>(references + later.first_reference())
+                                   : static_cast<const void*>(nodes + later.first_child()));
           index = first;
           any = 0;
 #pragma GCC unroll 4

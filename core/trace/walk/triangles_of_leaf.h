@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "core/base/prefetch.h"
 #include "core/bsp/scene_trees.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -28,8 +29,8 @@ class StoredIn {
   [[gnu::always_inline]] inline void fetch_ahead(const std::uint32_t* of_leaf, std::uint32_t count) const {
     for (std::uint32_t r = 0; r < count; ++r) {
       const char* const at = reinterpret_cast<const char*>(triangles_ + of_leaf[r]);
-      __builtin_prefetch(at);
-      __builtin_prefetch(at + sizeof(Stored) - 1);
+      prefetch(at);
+      prefetch(at + sizeof(Stored) - 1);
     }
   }
 
@@ -64,7 +65,7 @@ class MadeWhenTested {
   }
   static bool is_void(const ProjectedTriangle& triangle) { return triangle.n_u != triangle.n_u; }
   void fetch_ahead(const std::uint32_t* of_leaf, std::uint32_t count) const {
-    for (std::uint32_t r = 0; r < count; ++r) __builtin_prefetch(corners_ + of_leaf[r]);
+    for (std::uint32_t r = 0; r < count; ++r) prefetch(corners_ + of_leaf[r]);
   }
 
  private:

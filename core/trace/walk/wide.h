@@ -4,6 +4,7 @@
 
 #include <type_traits>
 
+#include "core/base/prefetch.h"
 #include "core/bsp/wide/wide_tree.h"
 #include "core/trace/walk/found.h"
 #include "core/trace/walk/kernels.h"
@@ -231,7 +232,7 @@ class WideWalk {
         nodes + index * sizeof(WideNode) +
         (if_leaf & (leaves - nodes + index * (sizeof(WideLeaf) - sizeof(WideNode))));
     for (std::size_t line = 0; line < sizeof(WideLeaf) / kCacheLine; ++line)
-      __builtin_prefetch(reinterpret_cast<const char*>(memory) + line * kCacheLine);
+      prefetch(reinterpret_cast<const char*>(memory) + line * kCacheLine);
   }
 
   const SceneTrees& scene_;

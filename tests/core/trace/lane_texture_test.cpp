@@ -85,11 +85,11 @@ TEST(LaneTexture, SameBitsAsOneByOneAtEveryWidth) {
           for (const bool is_color : {true, false}) {
             const glm::vec4 one(shared::texels::sample_texture(
                 params_of(mesh, use), {of(points.uv), of(points.change_x), of(points.change_y)}, is_color));
-            const float* const texel = points.texel[is_color ? 0 : 1][lane];
+            const auto& texel = points.texel[is_color ? 0 : 1];
             for (int c = 0; c < (is_color ? 3 : 4); ++c) {
               ASSERT_TRUE(std::isfinite(one[c]));
-              ASSERT_EQ(std::memcmp(&texel[c], &one[c], sizeof(float)), 0)
-                  << isa_name(isa) << " texture " << use.texture << " channel " << c << ": " << texel[c]
+              ASSERT_EQ(std::memcmp(&texel[c][lane], &one[c], sizeof(float)), 0)
+                  << isa_name(isa) << " texture " << use.texture << " channel " << c << ": " << texel[c][lane]
                   << " " << one[c];
             }
           }
