@@ -4,8 +4,7 @@
 // one register: gathers would cost more than all arithmetic on them.
 #pragma once
 
-#include <cmath>
-#include <iterator>
+#include <type_traits>
 
 #include "core/base/prefetch.h"
 #include "core/shade/lane_maps.h"
@@ -16,10 +15,11 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
+// 0 where t is not finite.
 inline Float within_period(Float t, Wrap wrap) {
   if (wrap == Wrap::clamp) return min(max(t, Float(0.0f)), Float(1.0f));
   const float period = wrap == Wrap::mirror ? 2.0f : 1.0f;
-  return t - Float(period) * floor(t * Float(1.0f / period));
+  return max(t - Float(period) * floor(t * Float(1.0f / period)), Float(0.0f));
 }
 
 // Whole numbers.
@@ -86,6 +86,26 @@ struct LanePlaces {
 // Shares of texels are whole numbers; those of a tap add up to this.
 constexpr float kWholeShare = 8192.0f;
 
+constexpr int kMostTextures = std::extent_v<decltype(TexturePoints::texel)>;
+
+// Of a place's textures those that are read.
+struct ReadTextures {
+  int count = 0;
+  const char* texels[kMostTextures];
+  const float* linear[kMostTextures];  // from sRGB; null: no colour
+  int place[kMostTextures];            // among the place's
+
+  ReadTextures(const TexturePlace& from, unsigned maps) {
+    for (int i = 0; i < from.count; ++i) {
+      const LaneTexture& t = from.textures[i];
+      if ((t.maps & maps) == 0) continue;
+      texels[count] = static_cast<const char*>(t.texels);
+      linear[count] = t.linear_from_srgb8;
+      place[count++] = i;
+    }
+  }
+};
+
 // The four texels about a point, and their shares, as add_texels wants them.
 struct LaneQuads {
   unsigned lanes;
@@ -117,16 +137,31 @@ struct LaneQuads {
     set_shares(all, at_x - base_x, at_y - base_y);
   }
 
-  // Two texels of each quad: in most quads, the others are in the same blocks.
-  void fetch(const void* texels) const {
-    for (unsigned waiting = lanes; waiting != 0; waiting &= waiting - 1)
-      for (const int k : {0, 3})
-        prefetch(static_cast<const char*>(texels) + 4 * std::size_t{texel[k][__builtin_ctz(waiting)]});
+  // Fetches two texels of each quad: in most quads, the others are in the same blocks.
+  [[gnu::always_inline]] inline void fetch(const ReadTextures& textures) const {
+    for (unsigned waiting = lanes; waiting != 0; waiting &= waiting - 1) {
+      const int lane = __builtin_ctz(waiting);
+      const std::size_t first = 4 * std::size_t{texel[0][lane]}, last = 4 * std::size_t{texel[3][lane]};
+      for (int t = 0; t < textures.count; ++t) {
+        prefetch(textures.texels[t] + first);
+        prefetch(textures.texels[t] + last);
+      }
+    }
   }
 
-  [[nodiscard]] TexelQuad of(const void* texels, int lane) const {
-    const auto bits = [&](int k) { return texel_bits(texels, texel[k][lane]); };
-    return {{bits(0), bits(1), bits(2), bits(3)}, {left_right[0][lane], left_right[1][lane]}};
+  [[gnu::always_inline]] inline void add(const ReadTextures& textures, TexelSum (*sums)[kWidth]) const {
+    for (unsigned waiting = lanes; waiting != 0; waiting &= waiting - 1) {
+      const int lane = __builtin_ctz(waiting);
+      const auto at = [&](int k) { return 4 * std::size_t{texel[k][lane]}; };
+      const std::size_t at0 = at(0), at1 = at(1), at2 = at(2), at3 = at(3);
+      const TexelShares shares(left_right[0][lane], left_right[1][lane]);
+      for (int t = 0; t < textures.count; ++t) {
+        const char* const texels = textures.texels[t];
+        const TexelQuad quad{texels + at0, texels + at1, texels + at2, texels + at3};
+        const float* const linear = textures.linear[t];
+        linear ? add_colors(quad, shares, linear, sums[t][lane]) : add_texels(quad, shares, sums[t][lane]);
+      }
+    }
   }
 
  private:
@@ -139,15 +174,6 @@ struct LaneQuads {
     }
   }
 };
-
-inline void add_texture(const LaneTexture& texture, const LaneQuads& quads, TexelSum* sums) {
-  const float* const linear = texture.linear_from_srgb8;
-  for (unsigned waiting = quads.lanes; waiting != 0; waiting &= waiting - 1) {
-    const int lane = __builtin_ctz(waiting);
-    const TexelQuad quad = quads.of(texture.texels, lane);
-    linear ? add_colors(quad, linear, sums[lane]) : add_texels(quad, sums[lane]);
-  }
-}
 
 constexpr int kMostTaps = 8;
 
@@ -215,12 +241,9 @@ inline Mask all_green(const TexturePlace& place, const LaneTexture& texture, con
   const unsigned between = (zero < of_second).bits();
 
   // All quads are found, and their texels fetched, before the first is read: memory is what takes the time.
+  const ReadTextures textures(place, maps);
   LaneQuads list[2 * kMostTaps];
   int count = 0;
-  const auto for_each_texture = [&](auto&& visit) {
-    for (int i = 0; i < place.count; ++i)
-      if ((place.textures[i].maps & maps) != 0) visit(i);
-  };
   for (float k = 0.5f;; k += 1.0f) {
     const unsigned on = (lanes & (Float(k) < taps)).bits();
     if (on == 0) break;
@@ -232,30 +255,30 @@ inline Mask all_green(const TexturePlace& place, const LaneTexture& texture, con
       quads.lanes = i == 0 ? on : on & between;
       if (quads.lanes == 0) continue;
       quads.find(place, at_u, at_v, levels, i, i == 0 ? whole - of_second : of_second);
-      for_each_texture([&](int t) { quads.fetch(place.textures[t].texels); });
+      quads.fetch(textures);
       ++count;
     }
   }
 
-  for_each_texture([&](int t) {
-    const LaneTexture& texture = place.textures[t];
-    TexelSum sums[kWidth];
-    for (TexelSum& sum : sums) sum.clear();
-    for (int i = 0; i < count; ++i) add_texture(texture, list[i], sums);
+  TexelSum sums[kMostTextures][kWidth];
+  for (int t = 0; t < textures.count; ++t)
+    for (TexelSum& sum : sums[t]) sum.clear();
+  for (int i = 0; i < count; ++i) list[i].add(textures, sums);
+  for (int t = 0; t < textures.count; ++t) {
     const float* rows[2][kWidth];
     for (unsigned lane = 0; lane < kWidth; ++lane) {
-      rows[0][lane] = sums[lane].above;
-      rows[1][lane] = sums[lane].below;
+      rows[0][lane] = sums[t][lane].above;
+      rows[1][lane] = sums[t][lane].below;
     }
     Float above[4], below[4];
     load_columns(rows[0], above);
     load_columns(rows[1], below);
-    const bool is_color = texture.linear_from_srgb8 != nullptr;
+    const bool is_color = textures.linear[t] != nullptr;
     for (int c = 0; c < 4; ++c) {
       const Float sum = is_color ? above[c] + below[c] : to_float(bits_of(above[c]) + bits_of(below[c]));
-      (sum / (whole * taps * Float(is_color ? 1.0f : 255.0f))).store(p.texel[t][c]);
+      (sum / (whole * taps * Float(is_color ? 1.0f : 255.0f))).store(p.texel[textures.place[t]][c]);
     }
-  });
+  }
 }
 
 }  // namespace

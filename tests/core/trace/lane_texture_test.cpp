@@ -98,5 +98,31 @@ TEST(LaneTexture, SameBitsAsOneByOneAtEveryWidth) {
   }
 }
 
+// A texture transform of a file may be as large as a float can be.
+TEST(LaneTexture, CoordinatesThatAreNotFinite) {
+  Random random(12);
+  Mesh mesh;
+  mesh.textures.edit().push_back(noise({64, 16}, true, random));
+  for (const Isa isa : supported_isas())
+    for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
+      for (const float coordinate :
+           {std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
+            std::numeric_limits<float>::quiet_NaN()}) {
+        const TextureUse use{.texture = 0, .wrap_u = wrap, .wrap_v = wrap};
+        TexturePoints points{};
+        points.uv[0][0] = points.uv[1][0] = coordinate;
+        TexturePlace at = texture_place(mesh, use);
+        const LaneTexture textures[]{lane_texture(mesh, use, true, 1u), lane_texture(mesh, use, false, 2u)};
+        at.textures = textures;
+        at.count = 2;
+        lane_probe(isa).sample_textures(at, 1u, 3u, points);
+        for (const auto& texture : points.texel)
+          for (int c = 0; c < 3; ++c) {
+            EXPECT_GE(texture[c][0], 0.0f) << isa_name(isa) << " " << coordinate;
+            EXPECT_LE(texture[c][0], 1.0f) << isa_name(isa) << " " << coordinate;
+          }
+      }
+}
+
 }  // namespace
 }  // namespace pinocchio
