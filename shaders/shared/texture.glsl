@@ -26,10 +26,12 @@ struct TexturePoint {
   vec2 change_y;
 };
 
+// 0 where t is not finite. (Comparisons with NaN are false; what clamp and max make of it is not defined.)
 SHARED float within_period(float t, int wrap) {
-  if (wrap == kWrapClamp) return clamp(t, 0.0f, 1.0f);
+  if (wrap == kWrapClamp) return t > 0.0f ? min(t, 1.0f) : 0.0f;
   float period = wrap == kWrapMirror ? 2.0f : 1.0f;
-  return t - period * floor(t / period);
+  float within = t - period * floor(t / period);
+  return within > 0.0f ? within : 0.0f;
 }
 
 // i: -1 to n, or to 2 n where it is mirrored.

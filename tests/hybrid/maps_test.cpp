@@ -186,6 +186,21 @@ TEST(Maps, LookTheSameToGpuCpuAndReference) {
   }
 }
 
+// A file's texture transform may be as large as a float can be.
+TEST(Maps, CoordinatesBeyondAFloatsRange) {
+  MaterialMaps maps;
+  maps.base_color = use();
+  maps.base_color.uv_from_texcoord = {3e38f, 3e38f, 3e38f, 3e38f, 3e38f, 3e38f};
+  const Scene scene = plate_with(maps, noise({7, 5}, 9));
+  const auto draw = [&](const char* mode) {
+    return draw_one(scene, {.settings = by({{"mode", mode}}), .size = kSize}).color;
+  };
+  const Image<glm::vec4> traced = draw("raytrace");
+  for (const glm::vec4& p : traced.pixels())
+    ASSERT_TRUE(glm::all(glm::greaterThanEqual(p, glm::vec4(0.0f)))) << p.x << " " << p.y << " " << p.z;
+  EXPECT_LT(share_apart(draw("hybrid"), traced), 0.002);
+}
+
 // Coats are left out on glass. A texture may leave parts of a material opaque.
 TEST(Maps, ACoatLiesWhereTexturesLetNoLightThrough) {
   Workers workers(2);

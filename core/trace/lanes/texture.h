@@ -22,9 +22,9 @@ inline Float within_period(Float t, Wrap wrap) {
   return max(t - Float(period) * floor(t * Float(1.0f / period)), Float(0.0f));
 }
 
-// Whole numbers.
+// Whole numbers, i from -1 to n, or to 2 n where it is mirrored.
 inline Float wrapped_texel(Float i, Float n, Wrap wrap) {
-  if (wrap == Wrap::repeat) i = select(i < Float(0.0f), i + n, select(n <= i, i - n, i));
+  if (wrap == Wrap::repeat) return select(i < Float(0.0f), i + n, select(n <= i, i - n, i));
   if (wrap == Wrap::mirror) i = select(n <= i, n + n - Float(1.0f) - i, i);
   return min(max(i, Float(0.0f)), n - Float(1.0f));
 }
