@@ -1,7 +1,6 @@
 // Part of walk/kernel.h's files: shaders/shared/texture.glsl in lanes, operation by operation, so that the
 // texels have the bits of one look-up at a time. Where the texels lie is computed for a packet at once, and
-// for all textures that are read there. Texels are fetched a point at a time, the channels of two levels in
-// one register: gathers would cost more than all arithmetic on them.
+// for all textures that are read there. Texels themselves are read a point at a time: gathers take longer.
 #pragma once
 
 #include <type_traits>
