@@ -54,6 +54,7 @@ struct MapTexels {
 
 vec4 texel_of(MapTexels texels, int use, bool is_color);
 
+#include "shared/texture_params.glsl"
 #include "shared/texture.glsl"
 #include "shared/maps.glsl"
 

@@ -15,6 +15,7 @@ namespace pinocchio::shared {
 #include "shaders/shared/surface.glsl"
 #include "shaders/shared/terminator.glsl"
 #include "shaders/shared/sampling_params.glsl"
+#include "shaders/shared/texture_params.glsl"
 #include "shaders/shared/sampling.glsl"
 #include "shaders/shared/sized_light.glsl"
 // clang-format on

@@ -3,8 +3,6 @@
 
 #if defined(__SSE4_1__)
 #include <immintrin.h>
-#elif defined(__ARM_NEON)
-#include <arm_neon.h>
 #endif
 
 #include <cstddef>
@@ -23,12 +21,13 @@ inline std::uint32_t texel_bits(const char* at) {
   return bits;
 }
 
-// Where four texels are: above left and right, below left and right.
+// The addresses of the four texels about a point: above left, above right, below left, below right.
 struct TexelQuad {
   const char* at[4];
 };
 
-// Their shares, whole numbers below 2^15: of those above and below, the left one's in the lower half.
+// The shares of these texels, whole numbers below 2^15. `above` and `below` hold two each: the left texel's
+// in the lower 16 bits, the right one's in the upper.
 struct TexelShares {
 #if defined(__AVX2__)
   __m256i pairs;
@@ -40,8 +39,8 @@ struct TexelShares {
 #endif
 };
 
-// What texels times their shares add up to, by channel, above and below: whole numbers' bits, of colours
-// floats.
+// The sum of texels times their shares, for each channel; texels above and below their points are summed
+// apart. add_texels() keeps whole numbers in these bits, add_colors() floats.
 struct TexelSum {
   alignas(32) float above[4];
   float below[4];
@@ -54,7 +53,7 @@ struct TexelSum {
 
 #if defined(__SSE4_1__)
 
-// Texels side by side, channel by channel.
+// The bytes of two texels in turn: red left, red right, green left and so on.
 inline __m128i left_right(const char* left, const char* right) {
   return _mm_unpacklo_epi8(_mm_cvtsi32_si128(as_int(texel_bits(left))),
                            _mm_cvtsi32_si128(as_int(texel_bits(right))));

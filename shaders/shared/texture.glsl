@@ -1,8 +1,8 @@
 // Source of GLSL and of C++ (bench/one_ray/shared_maps.h): texture look-ups. Each side defines TexelSource and
 // level_at(source, size, level): the level's first texel, width and height; texel_place(width, x, y): a texel's place
-// behind the first; texel_at(source, i, is_color): the i-th texel, colour (sRGB) made linear; and
-// texel_scale(is_color): what texel_at gives for 1; and
-// level_of(texels): their logarithm to base 2. The lanes have code of their own (core/trace/lanes/texture.h).
+// behind the first; texel_at(source, i, is_color): the i-th texel, colour (sRGB) made linear; texel_scale(is_color):
+// texel_at's value for 1; and level_of(texels): their logarithm to base 2. Expects texture_params.glsl. The lanes have
+// code of their own (core/trace/lanes/texture.h).
 
 const int kWrapRepeat = 0;
 const int kWrapMirror = 1;
@@ -44,10 +44,6 @@ SHARED int wrapped_texel(int i, int n, int wrap) {
 SHARED vec2 within_periods(TextureParams use, vec2 uv) {
   return vec2(within_period(uv.x, use.wrap_u), within_period(uv.y, use.wrap_v));
 }
-
-// The shares of a tap's texels are whole numbers and add up to this, so that the sums of 8-bit texels are exact,
-// whatever the order. (Hardware filters with 8 bits of share, and the two sides would differ.)
-const float kWholeShare = 8192.0f;
 
 SHARED float whole_share(float share) { return floor(share + 0.5f); }
 
@@ -97,9 +93,6 @@ SHARED vec4 sample_point(TextureParams use, vec2 uv, bool is_color) {
   return mean_of(with_level(no_texels(), use, within_periods(use, uv), 0, kWholeShare, is_color), 1.0f, is_color);
 }
 
-const float kMostTaps = 8.0f;
-const float kLongestFootprint = 1.0e18f;  // In texels. Beyond it, its square is not a finite number.
-
 // The mean over a pixel's footprint: several taps along its longer side, of levels by the distance between taps
 // (as the hardware's anisotropic filter: McCormack et al. 1999).
 SHARED vec4 sample_texture(TextureParams use, TexturePoint point, bool is_color) {
@@ -112,7 +105,7 @@ SHARED vec4 sample_texture(TextureParams use, TexturePoint point, bool is_color)
   if (use.levels <= 1 || !(longer > 1.0f && longer < kLongestFootprint && xx + yy > 0.0f))
     return sample_point(use, point.uv, is_color);
   float shorter = max(abs(x.x * y.y - x.y * y.x) / longer, 1.0f);  // the parallelogram's height
-  float taps = clamp(ceil(longer / shorter), 1.0f, kMostTaps);
+  float taps = clamp(ceil(longer / shorter), 1.0f, float(kMostTaps));
   float lod = clamp(level_of(min(longer / taps, 65536.0f)), 0.0f, float(use.levels - 1));
   int level = int(lod);
   float of_second = whole_share(kWholeShare * (lod - float(level)));

@@ -25,9 +25,6 @@ constexpr std::uint8_t kMoves = 2;
 // Triangles that a thread places at a time.
 constexpr std::size_t kPosedChunk = 2048;
 
-// Larger meshes are not in a core's caches.
-constexpr std::size_t kLargeMesh = 65536;
-
 // Fewer triangles are placed by one thread.
 constexpr std::size_t kForThreads = 8192;
 

@@ -16,9 +16,9 @@ namespace pinocchio {
 // Lights a scene that has no light: a soft, neutral sky and a directional light that casts, from the left of
 // a studio_camera.
 void add_studio_light(Scene& scene);
-// Whether the scene is lit by what add_studio_light adds, and by nothing else.
+// True: the scene has the sky and the light of add_studio_light, and no other light.
 [[nodiscard]] bool has_studio_light(const Scene& scene);
-// Whether the scene's environment is studio_sky().
+// True: the scene's sky is studio_sky().
 [[nodiscard]] bool has_studio_sky(const Scene& scene);
 
 // The studio's sky: neutral, darker below the horizon, with soft boxes above. Always the same one.

@@ -46,7 +46,7 @@ struct SceneArrays {
   // For materials with maps; null: there are none.
   const LaneMaps* maps;
   const glm::vec4 *colors, *tangents;
-  bool is_large;  // the caches do not hold its triangles: they are fetched ahead
+  bool is_large;  // more than kLargeMesh triangles: they are fetched ahead
 
   // `maps`: the mesh's.
   [[nodiscard]] static SceneArrays of(const Mesh& mesh, const LaneMapsOf& maps);

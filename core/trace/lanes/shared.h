@@ -95,7 +95,6 @@ struct vec4 {
   vec4(Float a, Float b, Float c, Float d) : x(a), y(b), z(c), w(d) {}
   explicit vec4(Float all) : x(all), y(all), z(all), w(all) {}
   explicit vec4(const glm::vec4& all) : x(all.x), y(all.y), z(all.z), w(all.w) {}
-  explicit vec4(const Float (&c)[4]) : x(c[0]), y(c[1]), z(c[2]), w(c[3]) {}
   explicit operator Vec() const { return {x, y, z}; }
 };
 

@@ -28,7 +28,7 @@ inline Float wrapped_texel(Float i, Float n, Wrap wrap) {
   return min(max(i, Float(0.0f)), n - Float(1.0f));
 }
 
-// log2 of a finite positive number.
+// log2 of a finite positive number. bench/one_ray/shared_maps.h has the same operations for one number.
 inline Float level_of(Float texels) {
   const Int bits = bits_of(texels), exponent = shift_right<23>(bits - Int(0x3f3504f3u));  // of sqrt(1/2)
   const Float m = from_bits(bits - shift_left<23>(exponent)), one(1.0f);
@@ -82,17 +82,14 @@ struct LanePlaces {
   }
 };
 
-// Shares of texels are whole numbers; those of a tap add up to this.
-constexpr float kWholeShare = 8192.0f;
-
 constexpr int kMostTextures = std::extent_v<decltype(TexturePoints::texel)>;
 
-// Of a place's textures those that are read.
+// Those textures of a place that a step reads.
 struct ReadTextures {
   int count = 0;
   const char* texels[kMostTextures];
   const float* linear[kMostTextures];  // from sRGB; null: no colour
-  int place[kMostTextures];            // among the place's
+  int place[kMostTextures];            // index in TexturePlace::textures
 
   ReadTextures(const TexturePlace& from, unsigned maps) {
     for (int i = 0; i < from.count; ++i) {
@@ -174,8 +171,6 @@ struct LaneQuads {
   }
 };
 
-constexpr int kMostTaps = 8;
-
 // How much of a texture's largest level a pixel sees, at the points of some lanes.
 struct LaneFootprints {
   Mask filtered;
@@ -188,11 +183,12 @@ struct LaneFootprints {
     const Float x0 = x.x * width, x1 = x.y * height, y0 = y.x * width, y1 = y.y * height;
     const Float xx = x0 * x0 + x1 * x1, yy = y0 * y0 + y1 * y1;
     longer = sqrt(max(yy, xx));
-    filtered = place.levels > 1 ? lanes & (one < longer) & (longer < Float(1.0e18f)) & (zero < xx + yy)
-                                : Mask::from_bits(0);
+    filtered = place.levels > 1
+                   ? lanes & (one < longer) & (longer < Float(shared::kLongestFootprint)) & (zero < xx + yy)
+                   : Mask::from_bits(0);
     const Float shorter = max(abs(x0 * y1 - x1 * y0) / longer, one);
     const Float many = -floor(-(longer / shorter));
-    taps = select(filtered, min(max(many, one), Float(as_float(kMostTaps))), one);
+    taps = select(filtered, min(max(many, one), Float(as_float(shared::kMostTaps))), one);
     along_u = select(filtered, select(yy < xx, x.x, y.x), zero);
     along_v = select(filtered, select(yy < xx, x.y, y.y), zero);
   }
@@ -235,13 +231,13 @@ inline Mask all_green(const TexturePlace& place, const LaneTexture& texture, con
                                   vec2(Float::load(p.change_y[0]), Float::load(p.change_y[1])), lanes);
   const auto& [filtered, longer, taps, along_u, along_v] = footprints;
   const LaneLevels levels(place, lanes, filtered, longer / taps);
-  const Float zero(0.0f), whole(kWholeShare), u = Float::load(p.uv[0]), v = Float::load(p.uv[1]);
+  const Float zero(0.0f), whole(shared::kWholeShare), u = Float::load(p.uv[0]), v = Float::load(p.uv[1]);
   const Float of_second = floor(whole * levels.part + Float(0.5f));
   const unsigned between = (zero < of_second).bits();
 
   // All quads are found, and their texels fetched, before the first is read: memory is what takes the time.
   const ReadTextures textures(place, maps);
-  LaneQuads list[2 * kMostTaps];
+  LaneQuads list[2 * shared::kMostTaps];
   int count = 0;
   for (float k = 0.5f;; k += 1.0f) {
     const unsigned on = (lanes & (Float(k) < taps)).bits();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/base/prefetch.h"
 #include "core/shade/ground_sky.h"
 #include "core/shade/surface.h"
 #include "core/trace/tiles/holes.h"
@@ -96,9 +97,6 @@ Bounce lights_alone(const LightGroup& group, const Bounce& step) {
   alone.mirrored = alone.refracted = alone.straight = alone.diffuse = nullptr;
   return alone;
 }
-
-// Fetching ahead costs a frame of a smaller mesh 2 to 4 %.
-constexpr std::size_t kLargeMesh = 65536;
 
 SceneArrays SceneArrays::of(const Mesh& mesh, const LaneMapsOf& maps) {
   return {mesh.positions.data(),

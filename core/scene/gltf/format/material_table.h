@@ -91,7 +91,7 @@ inline constexpr GltfTexture kGltfTextures[] = {
 // Whether some row is part of the extension.
 [[nodiscard]] bool is_in_material_table(std::string_view extension);
 
-// Whether a file's value is used as it is, clamped to its range, or left out.
+// How a file's value is used: as it is; clamped to its range; not at all, because it has the wrong type.
 enum class GltfValue { fits, clamped, wrong_type };
 
 // Sets the row's member to the file's value, if there is one.
