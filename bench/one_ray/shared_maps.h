@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/image/tonemap.h"
+#include "core/math/log2_series.h"
 #include "core/shade/shared.h"
 #include "pinocchio/conversion.h"
 #include "pinocchio/material_maps.h"
@@ -52,16 +53,12 @@ struct TexelSource {
   return is_color ? 1.0f : 255.0f;
 }
 
-// The operations of core/trace/lanes/texture.h.
+// As the lanes find it.
 [[nodiscard]] inline float level_of(float texels) {
   const auto bits = std::bit_cast<std::uint32_t>(texels);
   const int exponent = static_cast<int>(bits - 0x3f3504f3u) >> 23;
-  const auto m = std::bit_cast<float>(bits - (static_cast<std::uint32_t>(exponent) << 23));
-  const float s = (m - 1.0f) / (m + 1.0f), s2 = s * s;
-  constexpr float k2ByLn2 = 2.8853901f;
-  float sum = k2ByLn2 / 7.0f;
-  for (const float odd : {5.0f, 3.0f, 1.0f}) sum = sum * s2 + k2ByLn2 / odd;
-  return as_float(exponent) + s * sum;
+  return as_float(exponent) +
+         log2_series(std::bit_cast<float>(bits - (static_cast<std::uint32_t>(exponent) << 23)));
 }
 
 // Always inlined: a tap is a few instructions, and GLSL passes structs by value.

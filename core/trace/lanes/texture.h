@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "core/base/prefetch.h"
+#include "core/math/log2_series.h"
 #include "core/shade/lane_maps.h"
 #include "core/simd/texels.h"
 #include "core/trace/lanes/shared.h"
@@ -28,16 +29,10 @@ inline Float wrapped_texel(Float i, Float n, Wrap wrap) {
   return min(max(i, Float(0.0f)), n - Float(1.0f));
 }
 
-// log2 of a finite positive number. bench/one_ray/shared_maps.h has the same operations for one number.
+// log2 of a finite positive number.
 inline Float level_of(Float texels) {
   const Int bits = bits_of(texels), exponent = shift_right<23>(bits - Int(0x3f3504f3u));  // of sqrt(1/2)
-  const Float m = from_bits(bits - shift_left<23>(exponent)), one(1.0f);
-  const Float s = (m - one) / (m + one), s2 = s * s;
-  // The series of artanh; what is left out is below 2^-20.
-  constexpr float k2ByLn2 = 2.8853901f;
-  Float sum(k2ByLn2 / 7.0f);
-  for (const float odd : {5.0f, 3.0f, 1.0f}) sum = sum * s2 + Float(k2ByLn2 / odd);
-  return to_float(exponent) + s * sum;
+  return to_float(exponent) + log2_series(from_bits(bits - shift_left<23>(exponent)));
 }
 
 // The two levels that each lane reads.
