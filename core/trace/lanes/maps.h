@@ -180,17 +180,7 @@ struct MapTexelLanes : MapTexels {
   Float texel(1.0f);
   if (maps.alpha) {
     const MapCoordinates at(scene, *maps.alpha, triangle, weights, lanes);
-    TexturePoints p;
-    at.uv.x.store(p.uv[0]);
-    at.uv.y.store(p.uv[1]);
-    for (int axis = 0; axis < 2; ++axis) {
-      Float(0.0f).store(p.change_x[axis]);
-      Float(0.0f).store(p.change_y[axis]);
-    }
-    sample_textures(*maps.alpha, lanes.bits(), ~0u, p);
-    const vec4 all = texels_of(p.texel[0]);
-    const Float channels[] = {all.x, all.y, all.z, all.w};
-    texel = channels[maps.maps->alpha_channel];
+    texel = channel_at(*maps.alpha, at.uv, maps.maps->alpha_channel, lanes);
   }
   Float alpha = Float(maps.maps->alpha_factor) * texel;
   if (maps.maps->vertex_colors && scene.colors)

@@ -103,11 +103,10 @@ struct LaneQuads {
   alignas(64) std::uint32_t texel[4][kMostLanes];
   alignas(64) std::uint32_t left_right[2][kMostLanes];
 
-  // all: what the shares add up to.
-  [[gnu::always_inline]] inline void find(const TexturePlace& place, Float u, Float v,
-                                          const LaneLevels& levels, int level, Float all) {
-    const Float one(1.0f), zero(0.0f), width = levels.width[level], height = levels.height[level];
-    const Int first = levels.first[level];
+  // first, width, height: the level's. all: what the shares add up to.
+  [[gnu::always_inline]] inline void find(const TexturePlace& place, Float u, Float v, Int first, Float width,
+                                          Float height, Float all) {
+    const Float one(1.0f), zero(0.0f);
     const LanePlaces places(width);
     if (place.nearest) {
       const Int at = first + places.of_row(wrapped_texel(floor(v * height), height, place.wrap_v)) +
@@ -138,6 +137,21 @@ struct LaneQuads {
         prefetch(textures.texels[t] + last);
       }
     }
+  }
+
+  // The sums of one channel, which is at `texels`.
+  [[gnu::always_inline]] inline Int sums_of_channel(const char* texels) const {
+    alignas(64) std::uint32_t sums[kWidth]{};
+    for (unsigned waiting = lanes; waiting != 0; waiting &= waiting - 1) {
+      const int lane = __builtin_ctz(waiting);
+      const auto times = [&](int k, std::uint32_t share) {
+        return share * static_cast<unsigned char>(texels[4 * std::size_t{texel[k][lane]}]);
+      };
+      const std::uint32_t above = left_right[0][lane], below = left_right[1][lane];
+      sums[lane] = times(0, above & 0xffffu) + times(1, above >> 16) + times(2, below & 0xffffu) +
+                   times(3, below >> 16);
+    }
+    return Int::load(sums);
   }
 
   [[gnu::always_inline]] inline void add(const ReadTextures& textures, TexelSum (*sums)[kWidth]) const {
@@ -244,7 +258,8 @@ inline Mask all_green(const TexturePlace& place, const LaneTexture& texture, con
       LaneQuads& quads = list[count];
       quads.lanes = i == 0 ? on : on & between;
       if (quads.lanes == 0) continue;
-      quads.find(place, at_u, at_v, levels, i, i == 0 ? whole - of_second : of_second);
+      quads.find(place, at_u, at_v, levels.first[i], levels.width[i], levels.height[i],
+                 i == 0 ? whole - of_second : of_second);
       quads.fetch(textures);
       ++count;
     }
@@ -269,6 +284,18 @@ inline Mask all_green(const TexturePlace& place, const LaneTexture& texture, con
       (sum / (whole * taps * Float(is_color ? 1.0f : 255.0f))).store(p.texel[textures.place[t]][c]);
     }
   }
+}
+
+// A channel of the place's only texture, not filtered: the bits of sample_textures.
+[[gnu::noinline]] Float channel_at(const TexturePlace& place, const vec2& uv, int channel, Mask lanes) {
+  const TextureLevel& level = place.level[0];
+  const Float whole(shared::kWholeShare);
+  LaneQuads quads;
+  quads.lanes = lanes.bits();
+  quads.find(place, within_period(uv.x, place.wrap_u), within_period(uv.y, place.wrap_v), Int(level.first),
+             Float(level.width), Float(level.height), whole);
+  const Int sums = quads.sums_of_channel(static_cast<const char*>(place.textures[0].texels) + channel);
+  return to_float(sums) / (whole * Float(255.0f));
 }
 
 }  // namespace

@@ -50,6 +50,9 @@ struct LaneProbe {
   // x^y for x > 0.
   void (*power)(const float* x, const float* y, float* result, std::size_t count);
   SampleTextures sample_textures;
+  // A channel of the place's texture at `points`, not filtered.
+  void (*channel)(const TexturePlace& place, unsigned lanes, int channel, const TexturePoints& points,
+                  float* result);
   // The environment's light from directions, three columns each, and its samples' density there.
   void (*environment_light)(const EnvironmentLight& environment, const float* const* direction,
                             float* const* light, float* density, std::size_t count);

@@ -134,9 +134,18 @@ void values(LaneOp op, const std::uint32_t* a, const std::uint32_t* b, std::uint
   }
 }
 
+void channel_of_points(const TexturePlace& place, unsigned lanes, int channel, const TexturePoints& points,
+                       float* result) {
+  const vec2 uv(Float::load(points.uv[0]), Float::load(points.uv[1]));
+  alignas(64) float found[kWidth];
+  channel_at(place, uv, channel, Mask::from_bits(lanes)).store(found);
+  std::copy_n(found, kWidth, result);
+}
+
 }  // namespace
 
-const LaneProbe kProbe{Isa::PINOCCHIO_LANES, kWidth, samples, powers, sample_textures, environment_lights,
-                       environment_samples,  values, angles};
+const LaneProbe kProbe{
+    Isa::PINOCCHIO_LANES, kWidth, samples, powers, sample_textures, channel_of_points, environment_lights,
+    environment_samples,  values, angles};
 
 }  // namespace pinocchio::PINOCCHIO_LANES

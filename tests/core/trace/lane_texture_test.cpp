@@ -78,10 +78,19 @@ TEST(LaneTexture, SameBitsAsOneByOneAtEveryWidth) {
         at.textures = textures;
         at.count = 2;
         sample(at, lanes, 3u, points);
+        TexturePlace of_data = at;
+        of_data.textures = textures + 1;
+        of_data.count = 1;
+        const int channel = round % 4;
+        float unfiltered[kMostLanes];
+        lane_probe(isa).channel(of_data, lanes, channel, points, unfiltered);
         for (unsigned lane = 0; lane < width && lanes >> lane & 1u; ++lane) {
           const auto of = [&](const TexturePoints::Column(&columns)[2]) {
             return glm::vec2(columns[0][lane], columns[1][lane]);
           };
+          const glm::vec4 point(shared::texels::sample_point(params_of(mesh, use), of(points.uv), false));
+          ASSERT_EQ(std::memcmp(&unfiltered[lane], &point[channel], sizeof(float)), 0)
+              << isa_name(isa) << " texture " << use.texture << " channel " << channel;
           for (const bool is_color : {true, false}) {
             const glm::vec4 one(shared::texels::sample_texture(
                 params_of(mesh, use), {of(points.uv), of(points.change_x), of(points.change_y)}, is_color));
@@ -121,6 +130,12 @@ TEST(LaneTexture, CoordinatesThatAreNotFinite) {
             EXPECT_GE(texture[c][0], 0.0f) << isa_name(isa) << " " << coordinate;
             EXPECT_LE(texture[c][0], 1.0f) << isa_name(isa) << " " << coordinate;
           }
+        at.textures = textures + 1;
+        at.count = 1;
+        float unfiltered[kMostLanes];
+        lane_probe(isa).channel(at, 1u, 3, points, unfiltered);
+        EXPECT_GE(unfiltered[0], 0.0f) << isa_name(isa) << " " << coordinate;
+        EXPECT_LE(unfiltered[0], 1.0f) << isa_name(isa) << " " << coordinate;
       }
 }
 
