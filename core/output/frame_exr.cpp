@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <ranges>
 #include <span>
 #include <type_traits>
 
@@ -28,8 +29,9 @@ void add_channels(const LayerRow& row, std::span<const Pixel> pixels, std::vecto
     } else if constexpr (std::is_same_v<Pixel, float>) {
       channel.values.assign(pixels.begin(), pixels.end());
     } else {
-      channel.values.reserve(pixels.size());
-      for (const Pixel& pixel : pixels) channel.values.push_back(pixel[c]);
+      const auto values =
+          std::views::transform(pixels, [c](const Pixel& pixel) -> const float& { return pixel[c]; });
+      channel.values.assign(values.begin(), values.end());
     }
     ++c;
   }
