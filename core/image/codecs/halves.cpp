@@ -19,7 +19,7 @@ FourHalves half_bits(FourFloats values) {
   const FourWords size = bits & 0x7fffffff;
   const FourWords finite = size < kLargestHalf ? size : FourWords{} + kLargestHalf;
   const FourWords normal = (finite - 0x38000000 + 0xfff + (finite >> 13 & 1)) >> 13;
-  // One half has its last bit where subnormal halves have theirs, so that the sum is rounded there.
+  // The last bit of 0.5 is worth that of subnormal halves, so that the sum is rounded there.
   const FourWords subnormal =
       __builtin_bit_cast(FourWords, __builtin_bit_cast(FourFloats, finite) + 0.5f) - 0x3f000000;
   const FourWords nan = (size & 0x007fffff) >> 13;

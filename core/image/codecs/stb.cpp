@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <limits>
 #include <memory>
+#include <string_view>
 
 #define STB_IMAGE_STATIC
 // Missing bytes of a file that is cut off are zero, so that its picture is the same every time.
@@ -23,6 +24,20 @@
 #include "pinocchio/conversion.h"
 
 namespace pinocchio {
+namespace {
+
+// A TGA whose rows begin on the right: stb_image leaves them as they are. TGA is what is no other format.
+bool begins_on_the_right(std::span<const unsigned char> bytes) {
+  constexpr std::size_t kDescriptor = 17;
+  constexpr unsigned char kRightToLeft = 0x10;
+  const auto begins = [&](std::string_view with) {
+    return std::ranges::equal(bytes.first(with.size()), with);
+  };
+  return bytes.size() > kDescriptor && !begins("BM") && !begins("GIF8") &&
+         (bytes[kDescriptor] & kRightToLeft) != 0;
+}
+
+}  // namespace
 
 bool is_stb(std::span<const unsigned char> bytes) {
   int width = 0, height = 0, channels = 0;
@@ -44,6 +59,11 @@ Expected<DecodedImage> decode_stb(const EncodedPicture& picture) {
     return picture.error(std::string("cannot be decoded: ") +
                          (pixels ? "its size changes" : stbi_failure_reason()));
   std::copy_n(pixels.get(), bytes_of(*image).size(), bytes_of(*image).data());
+  if (begins_on_the_right(picture.bytes))
+    for (int y = 0; y < height; ++y) {
+      glm::u8vec4* const row = &image->texture.texels.at(0, y);
+      std::reverse(row, row + width);
+    }
   return image;
 }
 

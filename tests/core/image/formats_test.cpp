@@ -120,6 +120,20 @@ TEST(PictureFormats, EveryRowReadsItsSample) {
   }
 }
 
+TEST(PictureFormats, TgaFromEitherSide) {
+  const std::string left("\1\2\3"), right("\4\5\6");  // blue, green, red
+  for (const char descriptor : {'\0', '\x10', '\x20', '\x30'}) {
+    const bool mirrored = (descriptor & 0x10) != 0;
+    const std::string tga = std::string("\0\0\x02\0\0\0\0\0\0\0\0\0\x02\0\x01\0\x18", 17) + descriptor +
+                            (mirrored ? right + left : left + right);
+    MemoryLimit limit(1 << 20);
+    const Expected<DecodedImage> image = decode_texture({"file", "picture", bytes_of(tga), limit});
+    ASSERT_TRUE(image) << image.error().message();
+    EXPECT_EQ(image->texture.texels[0], glm::u8vec4(3, 2, 1, 255));
+    EXPECT_EQ(image->texture.texels[1], glm::u8vec4(6, 5, 4, 255));
+  }
+}
+
 TEST(PictureFormats, OthersHaveNoRow) {
   for (const char* name : {"name", "name.", "name.png.part", "name.p", "name.obj"})
     EXPECT_EQ(format_of(std::filesystem::path(name)), nullptr) << name;
