@@ -68,8 +68,8 @@ PairResult compare_pair(const PicturePair& pair, const Options& options, const s
   Expected<ExrFile> a = read_picture(pair.a), b = read_picture(pair.b);
   if (!a) return failed(pair, a.error().message(), kBadScene);
   if (!b) return failed(pair, b.error().message(), kBadScene);
-  Expected<Comparison> compared =
-      compare({pair.a.string(), std::move(*a)}, {pair.b.string(), std::move(*b)}, options.compare, workers);
+  Expected<Comparison> compared = compare({pair.a.string(), std::move(*a)}, {pair.b.string(), std::move(*b)},
+                                          options.compare, workers, &run_progress());
   if (!compared) return failed(pair, compared.error().message(), kFailed);
   PairResult result;
   result.pair = pair;

@@ -9,7 +9,7 @@ namespace pinocchio {
 
 Expected<PictureDifference> compare_pictures(const Image<glm::vec3>& picture,
                                              const Image<glm::vec3>& reference, float pixels_per_degree,
-                                             int threads) {
+                                             int threads, Progress* progress) {
   const auto refused = [](const std::string& what, const std::string& remedy) {
     return Unexpected(InputError{{}, 0, what, remedy});
   };
@@ -25,7 +25,7 @@ Expected<PictureDifference> compare_pictures(const Image<glm::vec3>& picture,
           std::string(image == &picture ? "the picture" : "the reference") + " has NaN or infinity in it",
           "no error figure can be given");
   Workers workers(threads);
-  PictureError error = picture_error(picture, reference, pixels_per_degree, workers);
+  PictureError error = picture_error(picture, reference, pixels_per_degree, workers, progress);
   return PictureDifference{error.rgb.rmse,           error.rgb.relative_mse, error.rgb.psnr_db,
                            error.rgb.max_difference, error.mean_flip,        std::move(error.flip)};
 }

@@ -134,7 +134,7 @@ Expected<void> compare_channels(const NamedExr& a, const NamedExr& b, const Comp
 }  // namespace
 
 Expected<Comparison> compare(const NamedExr& a, const NamedExr& b, const CompareOptions& options,
-                             Workers& workers) {
+                             Workers& workers, Progress* progress) {
   if (const auto same = check_sizes(a, b); !same) return Unexpected(same.error());
   const auto rgb_a = rgb_of(a);
   if (!rgb_a) return Unexpected(rgb_a.error());
@@ -143,7 +143,8 @@ Expected<Comparison> compare(const NamedExr& a, const NamedExr& b, const Compare
   Comparison result;
   if (const auto done = compare_channels(a, b, options, result); !done) return Unexpected(done.error());
   compare_masks(a, b, result);
-  static_cast<PictureError&>(result) = picture_error(*rgb_a, *rgb_b, options.pixels_per_degree, workers);
+  static_cast<PictureError&>(result) =
+      picture_error(*rgb_a, *rgb_b, options.pixels_per_degree, workers, progress);
   return result;
 }
 

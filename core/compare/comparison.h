@@ -32,6 +32,7 @@ struct Comparison : PictureError {  // over the data window
 // `b` is the reference. Errors: different sizes or windows; R, G, B or a requested channel is missing; NaN or
 // infinity in R, G or B (with the number of pixels, and the first one).
 [[nodiscard]] Expected<Comparison> compare(const NamedExr& a, const NamedExr& b,
-                                           const CompareOptions& options, Workers& workers);
+                                           const CompareOptions& options, Workers& workers,
+                                           Progress* progress = nullptr);
 
 }  // namespace pinocchio

@@ -109,12 +109,26 @@ std::vector<FeatureWeight> feature_weights(double pixels_per_degree) {
   return result;
 }
 
+// Rows of a picture, in parallel.
+struct Rows {
+  Workers& workers;
+  const Progress* progress;
+
+  template <class Body>
+  void for_each(int height, const Body& body) const {
+    workers.for_each(height, [&](std::size_t row) {
+      throw_if_cancelled(progress);
+      body(row);
+    });
+  }
+};
+
 // Filters along rows (step (1, 0)) or columns ((0, 1)). The border's pixels continue beyond it.
-Planes filtered(const Planes& in, const Kernel& kernel, glm::ivec2 step, Workers& workers) {
+Planes filtered(const Planes& in, const Kernel& kernel, glm::ivec2 step, const Rows& rows) {
   const int radius = kernel.size() / 2;
   const glm::ivec2 last = in.size() - 1;
   Planes out(in.size());
-  workers.for_each(in.height(), [&](std::size_t row) {
+  rows.for_each(in.height(), [&](std::size_t row) {
     const int y = row;
     for (int x = 0; x < in.width(); ++x) {
       glm::vec4 sum(0.0f);
@@ -129,10 +143,10 @@ Planes filtered(const Planes& in, const Kernel& kernel, glm::ivec2 step, Workers
   return out;
 }
 
-Planes each_pixel(const Image<glm::vec3>& in, Workers& workers, glm::vec4 (*value)(const glm::vec3&)) {
+Planes each_pixel(const Image<glm::vec3>& in, const Rows& rows, glm::vec4 (*value)(const glm::vec3&)) {
   Planes out(in.size());
   const auto width = as_size(in.width());
-  workers.for_each(in.height(), [&](std::size_t row) {
+  rows.for_each(in.height(), [&](std::size_t row) {
     for (std::size_t i = row * width; i < (row + 1) * width; ++i)
       out[i] = value(glm::clamp(in[i], 0.0f, 1.0f));
   });
@@ -140,12 +154,12 @@ Planes each_pixel(const Image<glm::vec3>& in, Workers& workers, glm::vec4 (*valu
 }
 
 // The picture as the eye resolves it, in rgb: (Y, Cx, Cz, Cz) filtered by the contrast kernel.
-Planes seen(const Image<glm::vec3>& image, const Kernel& kernel, Workers& workers) {
-  const Planes opponent = each_pixel(image, workers, [](const glm::vec3& rgb) {
+Planes seen(const Image<glm::vec3>& image, const Kernel& kernel, const Rows& rows) {
+  const Planes opponent = each_pixel(image, rows, [](const glm::vec3& rgb) {
     const glm::vec3 c = ycxcz(kXyzOfRgb * rgb / kWhite);
     return glm::vec4(c, c.z);
   });
-  return filtered(filtered(opponent, kernel, {1, 0}, workers), kernel, {0, 1}, workers);
+  return filtered(filtered(opponent, kernel, {1, 0}, rows), kernel, {0, 1}, rows);
 }
 
 // Colour of a pixel of seen() in FLIP's space, which Hunt's effect bends.
@@ -154,15 +168,15 @@ glm::vec3 lab_of_seen(const glm::vec4& c) {
 }
 
 // Edges and points of the luminance: (d/dx, d2/dx2, d/dy, d2/dy2).
-Planes features(const Image<glm::vec3>& image, const std::vector<FeatureWeight>& weights, Workers& workers) {
+Planes features(const Image<glm::vec3>& image, const std::vector<FeatureWeight>& weights, const Rows& rows) {
   Kernel across, down;
   for (const FeatureWeight& w : weights) {
     across.emplace_back(w.edge, w.point, w.gaussian, w.gaussian);
     down.emplace_back(w.gaussian, w.gaussian, w.edge, w.point);
   }
-  const Planes luminance = each_pixel(
-      image, workers, [](const glm::vec3& rgb) { return glm::vec4((kXyzOfRgb * rgb).y / kWhite.y); });
-  return filtered(filtered(luminance, across, {1, 0}, workers), down, {0, 1}, workers);
+  const Planes luminance =
+      each_pixel(image, rows, [](const glm::vec3& rgb) { return glm::vec4((kXyzOfRgb * rgb).y / kWhite.y); });
+  return filtered(filtered(luminance, across, {1, 0}, rows), down, {0, 1}, rows);
 }
 
 float color_error(const glm::vec4& a, const glm::vec4& b) {
@@ -182,23 +196,24 @@ float feature_error(const glm::vec4& a, const glm::vec4& b) {
 }  // namespace
 
 Image<float> flip(const Image<glm::vec3>& a, const Image<glm::vec3>& b, float pixels_per_degree,
-                  Workers& workers) {
+                  Workers& workers, Progress* progress) {
   assert(a.size() == b.size());
   assert(pixels_per_degree >= kLeastPixelsPerDegree && pixels_per_degree <= kMostPixelsPerDegree);
   Image<float> errors(a.size());
   const auto width = as_size(a.width());
+  const Rows rows{workers, progress};
   const auto each = [&](const auto& body) {
-    workers.for_each(a.height(), [&](std::size_t row) {
+    rows.for_each(a.height(), [&](std::size_t row) {
       for (std::size_t i = row * width; i < (row + 1) * width; ++i) body(i);
     });
   };
   {
     const Kernel kernel = contrast_kernel(pixels_per_degree);
-    const Planes seen_a = seen(a, kernel, workers), seen_b = seen(b, kernel, workers);
+    const Planes seen_a = seen(a, kernel, rows), seen_b = seen(b, kernel, rows);
     each([&](std::size_t i) { errors[i] = color_error(seen_a[i], seen_b[i]); });
   }
   const std::vector<FeatureWeight> weights = feature_weights(pixels_per_degree);
-  const Planes features_a = features(a, weights, workers), features_b = features(b, weights, workers);
+  const Planes features_a = features(a, weights, rows), features_b = features(b, weights, rows);
   each([&](std::size_t i) {
     errors[i] = std::pow(errors[i], 1.0f - feature_error(features_a[i], features_b[i]));
   });

@@ -5,6 +5,7 @@
 
 #include "core/parallel/workers.h"
 #include "pinocchio/image.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio {
 
@@ -15,7 +16,7 @@ inline constexpr float kLeastPixelsPerDegree = 1.0f, kMostPixelsPerDegree = 1000
 // a, b: the same size, linear Rec. 709, without NaN. They are first clamped to [0, 1], the range of an sRGB
 // screen. pixels_per_degree: of visual angle, in the range above.
 [[nodiscard]] Image<float> flip(const Image<glm::vec3>& a, const Image<glm::vec3>& b, float pixels_per_degree,
-                                Workers& workers);
+                                Workers& workers, Progress* progress = nullptr);
 
 // The mean of all pixels' errors; 0 without pixels.
 [[nodiscard]] double mean(const Image<float>& errors);

@@ -18,6 +18,7 @@ struct PictureError {
 
 // picture, reference: the same size, linear RGB, finite.
 [[nodiscard]] PictureError picture_error(const Image<glm::vec3>& picture, const Image<glm::vec3>& reference,
-                                         float pixels_per_degree, Workers& workers);
+                                         float pixels_per_degree, Workers& workers,
+                                         Progress* progress = nullptr);
 
 }  // namespace pinocchio

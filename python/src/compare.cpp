@@ -70,8 +70,9 @@ Image<glm::vec3> picture_of(const nb::object& from) {
 
 nb::dict compare(const nb::object& a, const nb::object& b, float pixels_per_degree) {
   const Image<glm::vec3> picture = picture_of(a), reference = picture_of(b);
-  auto* const found = new PictureDifference(value_or_throw(
-      without_gil([&](Progress*) { return compare_pictures(picture, reference, pixels_per_degree); })));
+  auto* const found = new PictureDifference(value_or_throw(without_gil([&](Progress* progress) {
+    return compare_pictures(picture, reference, pixels_per_degree, 0, progress);
+  })));
   const nb::capsule owner(found, [](void* p) noexcept { delete static_cast<PictureDifference*>(p); });
   nb::dict result;
   result["rmse"] = found->rmse;

@@ -139,16 +139,17 @@ def test_the_lock_is_released(scenes):
     assert ticks > 10
 
 
-@pytest.mark.parametrize("call", ["render(scene, size=(800, 600), spp=60000)",
-                                  "render_many(scene, [None] * 20000, (64, 64), outputs=['depth', 'color'])"])
+@pytest.mark.parametrize("call", ["engine.render(scene, size=(800, 600), spp=60000)",
+                                  "engine.render_many(scene, [None] * 20000, (64, 64), outputs=['depth', 'color'])",
+                                  "pn.compare(np.zeros((2400, 3200, 3)), np.ones((2400, 3200, 3)), 1000)"])
 def test_ctrl_c(scenes, call):
     code = (
-        "import signal, sys, pinocchio_renderer as pn\n"
+        "import signal, sys, numpy as np, pinocchio_renderer as pn\n"
         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # a job in the background ignores it
         f"scene = pn.load_scene({str(scenes / 'cornell.gltf')!r})\n"
         "engine = pn.Engine()\n"
         "print('go', flush=True)\n"
-        f"try: engine.{call}\n"
+        f"try: {call}\n"
         "except KeyboardInterrupt: sys.exit(42)\n"
     )
     child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE)

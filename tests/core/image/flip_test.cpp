@@ -81,6 +81,15 @@ TEST(FLIP, SamePicturesAreZero) {
   for (const Pair& pair : pairs()) EXPECT_EQ(largest(flip(pair.a, pair.a, 67.0f, workers)), 0.0) << pair.name;
 }
 
+TEST(FLIP, CanBeCancelled) {
+  Workers workers(2);
+  Progress progress;
+  const Pair pair = pairs().front();
+  EXPECT_FALSE(flip(pair.a, pair.b, 67.0f, workers, &progress).empty());
+  progress.cancel();
+  EXPECT_THROW((void)flip(pair.a, pair.b, 67.0f, workers, &progress), Cancelled);
+}
+
 TEST(FLIP, IsSymmetric) {
   Workers workers(2);
   for (const Pair& pair : pairs()) {

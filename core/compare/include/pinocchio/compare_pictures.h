@@ -5,6 +5,7 @@
 #include "pinocchio/error.h"
 #include "pinocchio/glm_layout.h"
 #include "pinocchio/image.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio {
 
@@ -21,6 +22,7 @@ struct PictureDifference {
 // `threads` 0: one for each core. Errors: different sizes, a value that is not finite. Any thread.
 [[nodiscard]] Expected<PictureDifference> compare_pictures(const Image<glm::vec3>& picture,
                                                            const Image<glm::vec3>& reference,
-                                                           float pixels_per_degree = 67.0f, int threads = 0);
+                                                           float pixels_per_degree = 67.0f, int threads = 0,
+                                                           Progress* progress = nullptr);
 
 }  // namespace pinocchio
