@@ -141,13 +141,14 @@ def test_the_lock_is_released(scenes):
 
 @pytest.mark.parametrize("call", ["engine.render(scene, size=(800, 600), spp=60000)",
                                   "engine.render_many(scene, [None] * 20000, (64, 64), outputs=['depth', 'color'])",
-                                  "pn.compare(np.zeros((2400, 3200, 3)), np.ones((2400, 3200, 3)), 1000)"])
+                                  "pn.compare(dark, bright, 1000)"])
 def test_ctrl_c(scenes, call):
     code = (
         "import signal, sys, numpy as np, pinocchio_renderer as pn\n"
         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # a job in the background ignores it
         f"scene = pn.load_scene({str(scenes / 'cornell.gltf')!r})\n"
         "engine = pn.Engine()\n"
+        "dark, bright = np.zeros((2400, 3200, 3), 'f4'), np.ones((2400, 3200, 3), 'f4')\n"
         "print('go', flush=True)\n"
         f"try: {call}\n"
         "except KeyboardInterrupt: sys.exit(42)\n"

@@ -12,6 +12,7 @@ namespace pinocchio {
 [[nodiscard]] Expected<DecodedImage> decode_webp(const EncodedPicture& picture);
 // BMP, GIF and TGA. TGA has no first bytes of its own: is_stb() tries to read a header.
 [[nodiscard]] Expected<DecodedImage> decode_stb(const EncodedPicture& picture);
+[[nodiscard]] Expected<DecodedImage> decode_tga(const EncodedPicture& picture);
 [[nodiscard]] bool is_stb(std::span<const unsigned char> bytes);
 
 // Linear light of all directions, in latitude and longitude. EXR is read from the file, not from the bytes.

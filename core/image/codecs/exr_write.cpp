@@ -1,8 +1,10 @@
 // Writing EXR. We make the lines and pack ZIP; OpenEXR writes header and chunks and packs the other methods.
+#include <half.h>
 #include <openexr.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <mutex>
@@ -12,12 +14,12 @@
 #include "core/files/atomic_file.h"
 #include "core/image/codecs/exr_bands.h"
 #include "core/image/codecs/exr_pack.h"
-#include "core/image/codecs/halves.h"
 #include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
 
+constexpr float kLargestHalf = 65504.0f;
 constexpr int kPart = 0;
 
 // OpenEXR's last error message on this thread.
@@ -95,6 +97,10 @@ void write_header(exr_context_t exr, const ExrFile& file) {
   check(exr_write_header(exr));
 }
 
+std::uint16_t half_bits(float value) {
+  return half(std::isfinite(value) ? std::clamp(value, -kLargestHalf, kLargestHalf) : value).bits();
+}
+
 // Line after line, with the channels of a line in the order of names.
 std::vector<std::byte> lines_of(std::vector<ExrChannel> channels, int width, int height) {
   std::ranges::sort(channels, {}, &ExrChannel::name);
@@ -116,7 +122,8 @@ std::vector<std::byte> lines_of(std::vector<ExrChannel> channels, int width, int
       } else if (channel.type == ExrChannel::Type::real) {
         put(channel.values.data() + first, w * sizeof(float));
       } else {
-        to_halves({channel.values.data() + first, w}, halves.data());
+        std::transform(channel.values.data() + first, channel.values.data() + first + w, halves.begin(),
+                       half_bits);
         put(halves.data(), w * sizeof(std::uint16_t));
       }
     }

@@ -54,7 +54,7 @@ constexpr PictureFormat kFormats[] = {
      .extensions = ".gif",
      .matches = [](Bytes bytes) { return starts_with(bytes, "GIF8"); },
      .decode_texels = decode_stb},
-    {.name = "TGA", .extensions = ".tga", .matches = is_stb, .decode_texels = decode_stb}};
+    {.name = "TGA", .extensions = ".tga", .matches = is_stb, .decode_texels = decode_tga}};
 
 Expected<DecodedImage> read_texels(const std::filesystem::path& file) {
   const std::string path = file.string();

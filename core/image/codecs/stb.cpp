@@ -3,7 +3,6 @@
 #include <cstdlib>
 #include <limits>
 #include <memory>
-#include <string_view>
 
 #define STB_IMAGE_STATIC
 // Missing bytes of a file that is cut off are zero, so that its picture is the same every time.
@@ -24,20 +23,6 @@
 #include "pinocchio/conversion.h"
 
 namespace pinocchio {
-namespace {
-
-// A TGA whose rows begin on the right: stb_image leaves them as they are. TGA is what is no other format.
-bool begins_on_the_right(std::span<const unsigned char> bytes) {
-  constexpr std::size_t kDescriptor = 17;
-  constexpr unsigned char kRightToLeft = 0x10;
-  const auto begins = [&](std::string_view with) {
-    return std::ranges::equal(bytes.first(with.size()), with);
-  };
-  return bytes.size() > kDescriptor && !begins("BM") && !begins("GIF8") &&
-         (bytes[kDescriptor] & kRightToLeft) != 0;
-}
-
-}  // namespace
 
 bool is_stb(std::span<const unsigned char> bytes) {
   int width = 0, height = 0, channels = 0;
@@ -59,11 +44,23 @@ Expected<DecodedImage> decode_stb(const EncodedPicture& picture) {
     return picture.error(std::string("cannot be decoded: ") +
                          (pixels ? "its size changes" : stbi_failure_reason()));
   std::copy_n(pixels.get(), bytes_of(*image).size(), bytes_of(*image).data());
-  if (begins_on_the_right(picture.bytes))
-    for (int y = 0; y < height; ++y) {
-      glm::u8vec4* const row = &image->texture.texels.at(0, y);
-      std::reverse(row, row + width);
-    }
+  return image;
+}
+
+Expected<DecodedImage> decode_tga(const EncodedPicture& picture) {
+  Expected<DecodedImage> image = decode_stb(picture);
+  // stb_image leaves rows that begin on the right as they are.
+  constexpr std::size_t kDescriptor = 17;
+  constexpr unsigned char kRightToLeft = 0x10;
+  // Of a file that is cut off, stb_image reads zeros.
+  const bool is_mirrored =
+      picture.bytes.size() > kDescriptor && (picture.bytes[kDescriptor] & kRightToLeft) != 0;
+  if (!image || !is_mirrored) return image;
+  Image<glm::u8vec4>& texels = image->texture.texels;
+  for (int y = 0; y < texels.height(); ++y) {
+    glm::u8vec4* const row = &texels.at(0, y);
+    std::reverse(row, row + texels.width());
+  }
   return image;
 }
 

@@ -139,7 +139,7 @@ struct LaneQuads {
     }
   }
 
-  // The sums of one channel, which is at `texels`.
+  // The sums of one channel. texels: where it is in the first texel.
   [[gnu::always_inline]] inline Int sums_of_channel(const char* texels) const {
     alignas(64) std::uint32_t sums[kWidth]{};
     for (unsigned waiting = lanes; waiting != 0; waiting &= waiting - 1) {

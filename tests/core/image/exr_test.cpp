@@ -1,10 +1,8 @@
 #include "pinocchio/exr.h"
 
-#include <half.h>
 #include <sys/resource.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -12,7 +10,6 @@
 
 #include "bench/one_ray/passes.h"
 #include "core/image/codecs/exr_bands.h"
-#include "core/image/codecs/halves.h"
 #include "core/output/frame_exr.h"
 #include "core/trace/tiles/aov.h"
 #include "core/trace/view/view_params.h"
@@ -273,26 +270,6 @@ TEST(Exr, HugeValuesStayFiniteInHalf) {
   write_exr(temporary("huge.exr"), exr);
   const Expected<ExrFile> read = read_exr(temporary("huge.exr"));
   EXPECT_EQ(read->channels[0].values, (std::vector<float>{65504.0f, kInfinity}));
-}
-
-// Each half, what lies between two, and the floats beside these.
-TEST(Exr, HalvesAreRoundedAsImathRoundsThem) {
-  std::vector<float> values;
-  for (std::uint32_t bits = 0; bits < 0x10000; ++bits) {
-    half h;
-    h.setBits(static_cast<std::uint16_t>(bits));
-    const auto of_half = std::bit_cast<std::uint32_t>(static_cast<float>(h));
-    for (const std::uint32_t between :
-         {of_half, of_half + 0x1000u, of_half + 0x01000000u / (bits % 1024 + 1)})
-      for (const std::uint32_t beside : {between - 1, between, between + 1})
-        values.push_back(std::bit_cast<float>(beside));
-  }
-  std::vector<std::uint16_t> halves(values.size());
-  to_halves(values, halves.data());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const float finite = std::isfinite(values[i]) ? std::clamp(values[i], -65504.0f, 65504.0f) : values[i];
-    ASSERT_EQ(halves[i], half(finite).bits()) << std::hex << std::bit_cast<std::uint32_t>(values[i]);
-  }
 }
 
 TEST(Aovs, AreChosenByName) {

@@ -134,6 +134,14 @@ TEST(PictureFormats, TgaFromEitherSide) {
   }
 }
 
+TEST(PictureFormats, TgaThatEndsWithinItsHeader) {
+  const std::string tga("\0\0\x02\0\0\0\0\0\0\0\0\0\x01\0\x01\0\x18", 17);
+  MemoryLimit limit(1 << 20);
+  const Expected<DecodedImage> image = decode_texture({"file", "picture", bytes_of(tga), limit});
+  ASSERT_TRUE(image) << image.error().message();
+  EXPECT_EQ(image->texture.texels[0], glm::u8vec4(0, 0, 0, 255));
+}
+
 TEST(PictureFormats, OthersHaveNoRow) {
   for (const char* name : {"name", "name.", "name.png.part", "name.p", "name.obj"})
     EXPECT_EQ(format_of(std::filesystem::path(name)), nullptr) << name;
