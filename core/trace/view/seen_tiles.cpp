@@ -4,6 +4,16 @@
 #include "pinocchio/ray.h"
 
 namespace pinocchio {
+namespace {
+
+// Bitwise AND of the ids in a line of a whole tile.
+std::uint32_t all_of_line(const std::uint32_t* ids) {
+  std::uint32_t all = kNoTriangle;
+  for (int x = 0; x < TileGrid::kTileSize; ++x) all &= ids[x];  // in vectors
+  return all;
+}
+
+}  // namespace
 
 SeenTiles::SeenTiles(const Image<std::uint32_t>& ids, int scale, const TileGrid& grid)
     : ids_(ids),
@@ -21,17 +31,15 @@ bool SeenTiles::any(std::size_t tile) {
 void SeenTiles::read(std::size_t row) {
   const std::size_t first = row * grid_.columns();
   const PixelBox edge = grid_.tile(first);
-  for (int y = edge.lo.y; y < edge.hi.y; ++y)
-    for (std::size_t i = first; i < first + grid_.columns(); ++i) {
-      const PixelBox tile = grid_.tile(i);
-      const std::uint32_t* const ids = &ids_.at(tile.lo.x * as_int(scale_), y * as_int(scale_));
-      std::uint32_t all = all_[i];
-      if (scale_ == 1 && tile.size().x == TileGrid::kTileSize)  // in vectors
-        for (int x = 0; x < TileGrid::kTileSize; ++x) all &= ids[x];
-      else
-        for (std::size_t x = 0; x < as_size(tile.size().x); ++x) all &= ids[x * scale_];
-      all_[i] = all;
-    }
+  // Tiles whose lines are read at once.
+  const std::size_t whole = scale_ == 1 ? as_size(ids_.size().x) / TileGrid::kTileSize : 0;
+  for (int y = edge.lo.y; y < edge.hi.y; ++y) {
+    const std::uint32_t* ids = &ids_.at(0, y * as_int(scale_));
+    std::size_t i = first;
+    for (; i < first + whole; ++i, ids += TileGrid::kTileSize) all_[i] &= all_of_line(ids);
+    for (; i < first + grid_.columns(); ++i)
+      for (int x = grid_.tile(i).size().x; x > 0; --x, ids += scale_) all_[i] &= *ids;
+  }
 }
 
 }  // namespace pinocchio
