@@ -71,6 +71,13 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile, const K
   return {counts_, times};
 }
 
+// As write() does where no triangle is seen: ids are given, and masks and `added` have nothing there.
+bool TileTracer::has_nothing_to_do(const TilePlan& plan, const KnownOfTile& known) {
+  const TileOutputs& out = plan.out;
+  const bool draws = plan.catcher || plan.beyond || out.sampled || out.color;
+  return known.sees_nothing && !draws && (!out.reflection || known.is_black());
+}
+
 // True if no camera ray of the tile can meet the scene. False where on_rays wants all rays.
 bool TileTracer::rays_miss_scene() const {
   return !plan_->out.seen && !plan_->out.on_rays && !plan_->model &&
@@ -286,7 +293,7 @@ void TileTracer::fire_shadows(const LightGroup& group, int generation, glm::vec4
 // Black light is not written again where it is known to be there.
 void TileTracer::write_reflection() {
   Image<glm::vec3>& to = *plan_->out.reflection;
-  const bool was_black = known_.black && *known_.black != 0;
+  const bool was_black = known_.is_black();
   if (known_.black) *known_.black = reflects_ ? 0 : 1;
   if (was_black && !reflects_) return;
   const auto width = as_size(tile_.size().x);

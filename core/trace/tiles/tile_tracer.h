@@ -19,12 +19,17 @@ namespace pinocchio {
 struct KnownOfTile {
   bool sees_nothing = false;      // no pixel sees a triangle
   std::uint8_t* black = nullptr;  // whether `reflection` is black in it, before and after; null: not kept
+
+  [[nodiscard]] bool is_black() const { return black && *black != 0; }
 };
 
 // Traces tiles with one thread's memory.
 class TileTracer {
  public:
   TileResult trace(const TilePlan& plan, const PixelBox& tile, const KnownOfTile& known = {});
+
+  // True if trace() would find nothing and write nothing.
+  [[nodiscard]] static bool has_nothing_to_do(const TilePlan& plan, const KnownOfTile& known);
 
  private:
   static constexpr std::size_t kPixels = std::size_t{TileGrid::kTileSize} * TileGrid::kTileSize;

@@ -35,16 +35,13 @@ TileResult trace_tiles(const TraceJob& job, const TileOutputs& outputs) {
   }
   std::optional<SeenTiles> seen;
   if (outputs.seen) seen.emplace(*outputs.seen, outputs.scale, grid);
-  // Drawn also where no triangle is seen.
-  const bool draws_unseen = plan.catcher || plan.beyond || outputs.sampled || outputs.color;
   TileResult result;
   std::mutex mutex;
   job.workers.for_each(grid.count(), [&](std::size_t i) {
     static thread_local TileTracer tracer;  // allocated once a thread
     const bool left_out = job.left_out && outputs.scale == 1 && (*job.left_out)[i] != 0;
     const KnownOfTile known{seen && !seen->any(i), black ? &(*black)[i] : nullptr};
-    const bool is_black = !outputs.reflection || (known.black && *known.black != 0);
-    if (!left_out && (!known.sees_nothing || draws_unseen || !is_black)) {
+    if (!left_out && !TileTracer::has_nothing_to_do(plan, known)) {
       const TileResult of_tile = tracer.trace(plan, grid.tile(i), known);
       const std::lock_guard lock(mutex);
       result.rays += of_tile.rays;

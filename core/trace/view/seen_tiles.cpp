@@ -17,7 +17,7 @@ std::uint32_t all_of_line(const std::uint32_t* ids) {
 
 SeenTiles::SeenTiles(const Image<std::uint32_t>& ids, int scale, const TileGrid& grid)
     : ids_(ids),
-      scale_(as_size(scale)),
+      scale_(scale),
       grid_(grid),
       is_read_(std::make_unique<std::once_flag[]>(grid.rows())),
       all_(grid.count(), kNoTriangle) {}
@@ -29,16 +29,16 @@ bool SeenTiles::any(std::size_t tile) {
 }
 
 void SeenTiles::read(std::size_t row) {
-  const std::size_t first = row * grid_.columns();
-  const PixelBox edge = grid_.tile(first);
-  // Tiles whose lines are read at once.
-  const std::size_t whole = scale_ == 1 ? as_size(ids_.size().x) / TileGrid::kTileSize : 0;
+  const std::size_t first = row * grid_.columns(), end = first + grid_.columns();
+  const PixelBox edge = grid_.tile(end - 1);
+  const std::size_t whole_end = first + (scale_ == 1 ? as_size(edge.hi.x) / TileGrid::kTileSize : 0);
   for (int y = edge.lo.y; y < edge.hi.y; ++y) {
-    const std::uint32_t* ids = &ids_.at(0, y * as_int(scale_));
-    std::size_t i = first;
-    for (; i < first + whole; ++i, ids += TileGrid::kTileSize) all_[i] &= all_of_line(ids);
-    for (; i < first + grid_.columns(); ++i)
-      for (int x = grid_.tile(i).size().x; x > 0; --x, ids += scale_) all_[i] &= *ids;
+    const std::uint32_t* line = &ids_.at(0, y * scale_);
+    for (std::size_t i = first; i < whole_end; ++i, line += TileGrid::kTileSize) all_[i] &= all_of_line(line);
+    for (std::size_t i = whole_end; i < end; ++i) {
+      const PixelBox tile = grid_.tile(i);
+      for (int x = tile.lo.x; x < tile.hi.x; ++x) all_[i] &= ids_.at(x * scale_, y * scale_);
+    }
   }
 }
 

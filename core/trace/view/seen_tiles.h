@@ -24,7 +24,7 @@ class SeenTiles {
   void read(std::size_t row);
 
   const Image<std::uint32_t>& ids_;
-  std::size_t scale_;
+  int scale_;
   const TileGrid& grid_;
   std::unique_ptr<std::once_flag[]> is_read_;  // by row
   std::vector<std::uint32_t> all_;             // by tile: bitwise AND of its ids
