@@ -16,7 +16,7 @@ target_compile_options(pinocchio_settings INTERFACE -Wall -Wextra -Wpedantic -Ws
 target_compile_definitions(pinocchio_settings INTERFACE GLM_FORCE_EXPLICIT_CTOR)
 # Linked as well by what nobody waits for (verbs, panels, tests): optimising it takes longer than it ever saves.
 add_library(pinocchio_cold INTERFACE)
-target_compile_options(pinocchio_cold INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
+target_compile_options(pinocchio_cold INTERFACE $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-Og>)
 if(PINOCCHIO_SANITIZE)
   target_compile_options(pinocchio_settings INTERFACE -fsanitize=${PINOCCHIO_SANITIZE} -fno-sanitize-recover=all
                          -fno-omit-frame-pointer)

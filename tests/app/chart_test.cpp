@@ -8,7 +8,7 @@
 namespace pinocchio {
 namespace {
 
-const std::string kSmall = "-o d --quick --size 48x36 --repeat 1 --quiet ";
+const std::string kSmallChart = "-o d --quick --size 48x36 --repeat 1 --quiet ";
 
 class ChartTest : public ProgramTest {
  protected:
@@ -37,8 +37,8 @@ class ChartTest : public ProgramTest {
 };
 
 TEST_F(ChartTest, WritesFiguresPicturesAndAPageOfCharts) {
-  const CommandResult result =
-      run("chart" + scene("two-lights") + kSmall + "--only design,exchange,reflection-format,mask-scale,spp");
+  const CommandResult result = run("chart" + scene("two-lights") + kSmallChart +
+                                   "--only design,exchange,reflection-format,mask-scale,spp");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   for (const char* file :
        {"index.html", "explore.html", "results.csv", "pictures/reference-centre-3.exr", "error-flip.svg",
@@ -73,9 +73,9 @@ TEST_F(ChartTest, WritesFiguresPicturesAndAPageOfCharts) {
 }
 
 TEST_F(ChartTest, ErrorsAreThoseOfWhatIsOnTheScreen) {
-  ASSERT_EQ(
-      run_without_page("chart" + scene("cornell") + kSmall + "--only design,exchange,mask-scale").exit_code,
-      0);
+  ASSERT_EQ(run_without_page("chart" + scene("cornell") + kSmallChart + "--only design,exchange,mask-scale")
+                .exit_code,
+            0);
   std::map<std::string, nlohmann::json> points;
   const nlohmann::json json = results();
   for (const nlohmann::json& point : json["points"])
@@ -95,7 +95,8 @@ TEST_F(ChartTest, ErrorsAreThoseOfWhatIsOnTheScreen) {
 
 TEST_F(ChartTest, TheFrontIsBeatenByNoPoint) {
   ASSERT_EQ(
-      run_without_page("chart" + scene("cornell") + kSmall + "--only design,mask-scale,depth").exit_code, 0);
+      run_without_page("chart" + scene("cornell") + kSmallChart + "--only design,mask-scale,depth").exit_code,
+      0);
   const nlohmann::json json = results();
   const nlohmann::json& points = json["points"];
   const auto on_front = [](const nlohmann::json& point) {
@@ -116,7 +117,7 @@ TEST_F(ChartTest, TheFrontIsBeatenByNoPoint) {
 }
 
 TEST_F(ChartTest, WhatIsMeasuredIsNotMeasuredAgain) {
-  const std::string chart = "chart" + scene("cornell") + kSmall;
+  const std::string chart = "chart" + scene("cornell") + kSmallChart;
   ASSERT_EQ(run_without_page(chart + "--only depth").exit_code, 0);
   nlohmann::json json = results();
   const std::size_t before = json["points"].size();
@@ -141,8 +142,8 @@ TEST_F(ChartTest, CtrlCKeepsWhatIsDone) {
 }
 
 TEST_F(ChartTest, AFolderHoldsOneChart) {
-  ASSERT_EQ(run_without_page("chart" + scene("cornell") + kSmall + "--only tiles").exit_code, 0);
-  const std::string other = "chart" + scene("two-lights") + kSmall + "--only tiles";
+  ASSERT_EQ(run_without_page("chart" + scene("cornell") + kSmallChart + "--only tiles").exit_code, 0);
+  const std::string other = "chart" + scene("two-lights") + kSmallChart + "--only tiles";
   const CommandResult refused = run(other);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.err.find("d/results.json: is the chart of another run (scene differs)"),
@@ -160,9 +161,10 @@ TEST_F(ChartTest, AFolderHoldsOneChart) {
 
 // The program's own options, by which it resolves to the settings that were measured.
 TEST_F(ChartTest, TheOptionsItNamesDrawTheScene) {
-  ASSERT_EQ(run_without_page("chart" + scene("two-lights") + kSmall + "--only design,tiles,cutoff,combined")
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      run_without_page("chart" + scene("two-lights") + kSmallChart + "--only design,tiles,cutoff,combined")
+          .exit_code,
+      0);
   std::size_t drawn = 0;
   for (const nlohmann::json& json = results(); const nlohmann::json& point : json["points"]) {
     const auto options = point["options"].get<std::string>();
@@ -179,7 +181,7 @@ TEST_F(ChartTest, TheOptionsItNamesDrawTheScene) {
 }
 
 TEST_F(ChartTest, WithoutMatplotlibTheFiguresAreThereAndOneLineSaysWhatToInstall) {
-  const CommandResult result = run_without_page("chart" + scene("cornell") + kSmall + "--only tiles");
+  const CommandResult result = run_without_page("chart" + scene("cornell") + kSmallChart + "--only tiles");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("install python3-matplotlib"), std::string::npos) << result.err;
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
@@ -190,7 +192,7 @@ TEST_F(ChartTest, WithoutMatplotlibTheFiguresAreThereAndOneLineSaysWhatToInstall
 TEST_F(ChartTest, TimeIsTheFramesOrTheProcessors) {
   for (const std::string clock : {"frame", "cpu"}) {
     ASSERT_EQ(
-        run_without_page("chart" + scene("cornell") + kSmall + "--restart --only tiles --clock " + clock)
+        run_without_page("chart" + scene("cornell") + kSmallChart + "--restart --only tiles --clock " + clock)
             .exit_code,
         0);
     const nlohmann::json json = results();
@@ -214,7 +216,7 @@ std::string even_sky(char exponent) {
 TEST_F(ChartTest, AnEnvironmentIsChartedAgainstTheReferenceThatSeesIt) {
   write("sky.hdr", even_sky('\x81'));
   write("dim.hdr", even_sky('\x80'));
-  const std::string samples = kSmall + "--only spp ";
+  const std::string samples = kSmallChart + "--only spp ";
   ASSERT_EQ(
       run_without_page("chart" + scene("cornell") + samples + "--environment sky.hdr --eye 0,1,9").exit_code,
       0);
@@ -231,14 +233,15 @@ TEST_F(ChartTest, WrongUseIsOneLine) {
     std::string arguments;
     int exit_code;
     const char* says;
-  } kCases[] = {{kSmall + "--only depth,colour", 2, "'colour' is not an axis; there are design, exchange"},
-                {"--quick", 2, "--output"},
-                {kSmall + "--turntable 4", 2, "the camera's motion has 4 frames"},
-                {kSmall + "--repeat 0", 2, "--repeat"},
-                {kSmall + "--indirect 2", 2, "--indirect"},
-                {kSmall + "--stability", 2, "give a SCENE or --stability"},
-                {kSmall + "--projection panorama", 2, "cannot draw a panorama"},
-                {"-o file/d --quick", 1, "the folder cannot be made"}};
+  } kCases[] = {
+      {kSmallChart + "--only depth,colour", 2, "'colour' is not an axis; there are design, exchange"},
+      {"--quick", 2, "--output"},
+      {kSmallChart + "--turntable 4", 2, "the camera's motion has 4 frames"},
+      {kSmallChart + "--repeat 0", 2, "--repeat"},
+      {kSmallChart + "--indirect 2", 2, "--indirect"},
+      {kSmallChart + "--stability", 2, "give a SCENE or --stability"},
+      {kSmallChart + "--projection panorama", 2, "cannot draw a panorama"},
+      {"-o file/d --quick", 1, "the folder cannot be made"}};
   write("file", "");
   for (const auto& wrong : kCases) {
     const CommandResult result = run("chart" + scene("cornell") + wrong.arguments);
@@ -249,7 +252,7 @@ TEST_F(ChartTest, WrongUseIsOneLine) {
 }
 
 TEST_F(ChartTest, StabilityGoesOnWhereItWasEndedAndFindsNoFailureOfTheDefaults) {
-  EXPECT_EQ(run("chart " + kSmall).exit_code, 2);  // without a scene
+  EXPECT_EQ(run("chart " + kSmallChart).exit_code, 2);  // without a scene
   const CommandResult ended =
       run_command("cd '" + folder_.string() +
                       "' && ( '" PINOCCHIO_PROGRAM

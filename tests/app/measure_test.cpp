@@ -51,7 +51,7 @@ TEST(Figures, ReprojectedBytesAreThoseOfTracedFrames) {
   EXPECT_EQ(app::figures(records, settings, {}, {8, 6}, nullptr)["bytes"]["cpu_to_gpu"], 750);
 }
 
-const std::string kSmall = "--size 80x60 --turntable 9 ";
+const std::string kSmallRun = "--size 80x60 --turntable 9 ";
 const std::string kLarger = "--size 240x180 --turntable 9 ";  // that the rasteriser finds what is seen
 
 TEST_F(MeasureTest, PrintsATableAndWritesTheFigures) {
@@ -101,7 +101,7 @@ TEST_F(MeasureTest, EachFrameOfAStillCameraIsDrawn) {
 // What the CPU draws alone keeps no GPU busy and sends nothing.
 TEST_F(MeasureTest, ARaytracedFrameIsTheProcessorsAlone) {
   const CommandResult result =
-      run("measure" + scene("cornell") + kSmall + "--mode raytrace --stats-json m.json --trace t.json");
+      run("measure" + scene("cornell") + kSmallRun + "--mode raytrace --stats-json m.json --trace t.json");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out.find("GPU"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("busy: CPU"), std::string::npos) << result.out;
@@ -173,7 +173,8 @@ TEST_F(MeasureTest, RefusesMoreFramesThanItKeepsFiguresOf) {
 }
 
 TEST_F(MeasureTest, ComparesDesignsAndExchangesInOneRun) {
-  const CommandResult result = run("measure" + scene("cornell") + kSmall + "--compare --stats-json m.json");
+  const CommandResult result =
+      run("measure" + scene("cornell") + kSmallRun + "--compare --stats-json m.json");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   std::set<std::string> names;
   const nlohmann::json figures = json("m.json");
@@ -204,7 +205,7 @@ TEST_F(MeasureTest, SlidesMoveTheirBytesAtTheirSize) {
 TEST_F(MeasureTest, TraceIsChromesFormatWithoutSlicesThatOverlap) {
   for (const std::string more :
        {"", "--exchange sync", "--exchange reproject", "--design 2", "--mode raytrace"}) {
-    EXPECT_EQ(run("measure" + scene("cornell") + kSmall + "--quiet --trace t.json " + more).exit_code, 0);
+    EXPECT_EQ(run("measure" + scene("cornell") + kSmallRun + "--quiet --trace t.json " + more).exit_code, 0);
     const nlohmann::json trace = json("t.json");
     std::set<std::string> phases;
     std::set<int> named;
@@ -246,9 +247,9 @@ TEST_F(MeasureTest, ABudgetIsMeasuredKeptAndReported) {
     EXPECT_LT(budget["front"][i]["frame_ms"], budget["front"][i - 1]["frame_ms"]);
   }
   EXPECT_EQ(budget["used"][0]["error"], 0.0);  // ten seconds are enough for the exact plan
-  EXPECT_EQ(run("measure" + scene("cornell") + kSmall + "--budget soon").exit_code, 2);
-  EXPECT_EQ(run("measure" + scene("cornell") + kSmall + "--max-error flop=1").exit_code, 2);
-  EXPECT_EQ(run("measure" + scene("cornell") + kSmall + "--budget 9ms --mode raytrace").exit_code, 2);
+  EXPECT_EQ(run("measure" + scene("cornell") + kSmallRun + "--budget soon").exit_code, 2);
+  EXPECT_EQ(run("measure" + scene("cornell") + kSmallRun + "--max-error flop=1").exit_code, 2);
+  EXPECT_EQ(run("measure" + scene("cornell") + kSmallRun + "--budget 9ms --mode raytrace").exit_code, 2);
 }
 
 TEST_F(MeasureTest, AWrittenPlanIsGivenBack) {
@@ -258,11 +259,11 @@ TEST_F(MeasureTest, AWrittenPlanIsGivenBack) {
   plan["plan"]["reflection_scale"] = 2;
   std::ofstream(folder_ / "plan.json") << plan.dump(2);
   const CommandResult result =
-      run("measure" + scene("two-lights") + kSmall + "--plan plan.json --quiet --stats-json m.json");
+      run("measure" + scene("two-lights") + kSmallRun + "--plan plan.json --quiet --stats-json m.json");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const nlohmann::json drawn = json("m.json")["plan"];
   for (const auto& [name, value] : plan["plan"].items()) EXPECT_EQ(drawn[name], value) << name;
-  const std::string measure = "measure" + scene("two-lights") + kSmall;
+  const std::string measure = "measure" + scene("two-lights") + kSmallRun;
   EXPECT_EQ(run(measure + "--plan plan.json --depth 2 --quiet --stats-json m.json").exit_code, 0);
   EXPECT_EQ(json("m.json")["plan"]["depth"], 2);  // an option overrides the file
   EXPECT_EQ(run(measure + "--plan none.json").exit_code, 2);

@@ -23,7 +23,7 @@ class RenderTest : public ProgramTest {
   }
 };
 
-const std::string kSmall = "--size 80x60 --quiet ";
+const std::string kSmallPicture = "--size 80x60 --quiet ";
 
 bool same_pixels(const ExrFile& a, const ExrFile& b) {
   if (a.channels.size() != b.channels.size()) return false;
@@ -56,7 +56,8 @@ TEST_F(RenderTest, AFilesEnvironmentIsSeenUnlessAnotherIsGiven) {
 }
 
 TEST_F(RenderTest, WritesEveryChannelAndTheFigures) {
-  expect_done("render" + scene("two-lights") + kSmall + "-o x.exr --preview x.png --stats-json x.json");
+  expect_done("render" + scene("two-lights") + kSmallPicture +
+              "-o x.exr --preview x.png --stats-json x.json");
   const ExrFile file = exr("x.exr");
   for (const char* name :
        {"R", "G", "B", "A", "Z", "P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z", "Albedo.R", "Albedo.G", "Albedo.B",
@@ -88,36 +89,36 @@ TEST_F(RenderTest, WritesEveryChannelAndTheFigures) {
 
 TEST_F(RenderTest, DeterministicFilesAreEqualToTheByte) {
   for (const char* name : {"a.exr", "b.exr"})
-    expect_done("render" + scene("cornell") + kSmall + "--deterministic -o " + name);
+    expect_done("render" + scene("cornell") + kSmallPicture + "--deterministic -o " + name);
   EXPECT_EQ(run_command("cd '" + folder_.string() + "' && cmp a.exr b.exr", folder_ / "scratch").exit_code,
             0);
 }
 
 TEST_F(RenderTest, ThreadsIsaAndExchangeDoNotChangeThePixels) {
-  expect_done("render" + scene("two-lights") + kSmall + "-o a.exr");
+  expect_done("render" + scene("two-lights") + kSmallPicture + "-o a.exr");
   const std::vector<std::string> all{"--threads 1", "--threads 4", "--isa scalar", four_lanes(),
                                      "--exchange pipelined"};
   for (const std::string& options : all) {
-    expect_done("render" + scene("two-lights") + kSmall + options + " -o b.exr");
+    expect_done("render" + scene("two-lights") + kSmallPicture + options + " -o b.exr");
     EXPECT_TRUE(same_pixels(exr("a.exr"), exr("b.exr"))) << options;
   }
-  expect_done("render" + scene("two-lights") + kSmall + "--backend osmesa -o b.exr");
+  expect_done("render" + scene("two-lights") + kSmallPicture + "--backend osmesa -o b.exr");
   EXPECT_TRUE(same_pixels(exr("a.exr"), exr("b.exr"))) << "osmesa";
 }
 
 TEST_F(RenderTest, CropKeepsTheDisplayWindow) {
-  expect_done("render" + scene("cornell") + kSmall + "--crop 10,20,50,45 --mode raytrace -o x.exr");
+  expect_done("render" + scene("cornell") + kSmallPicture + "--crop 10,20,50,45 --mode raytrace -o x.exr");
   EXPECT_EQ(exr("x.exr").display_size, glm::ivec2(80, 60));
   EXPECT_EQ(exr("x.exr").data_window, (PixelBox{{10, 20}, {50, 45}}));
 }
 
 TEST_F(RenderTest, FramesAreNumbered) {
-  expect_done("render" + scene("cornell") + kSmall + "--turntable 4 --stats-json x.json -o f####.exr");
+  expect_done("render" + scene("cornell") + kSmallPicture + "--turntable 4 --stats-json x.json -o f####.exr");
   for (const char* name : {"f0000.exr", "f0001.exr", "f0002.exr", "f0003.exr"})
     EXPECT_TRUE(exists(name)) << name;
   EXPECT_FALSE(same_pixels(exr("f0000.exr"), exr("f0001.exr")));
   EXPECT_EQ(json("x.json")["latency"]["frames"], 2);  // over a range, pipelined
-  expect_done("render" + scene("cornell") + kSmall + "--turntable 4 --frames 1-3x2 -o g#.exr");
+  expect_done("render" + scene("cornell") + kSmallPicture + "--turntable 4 --frames 1-3x2 -o g#.exr");
   EXPECT_TRUE(exists("g1.exr") && exists("g3.exr") && !exists("g0.exr") && !exists("g2.exr"));
   EXPECT_TRUE(same_pixels(exr("f0003.exr"), exr("g3.exr")));
 }
@@ -125,10 +126,11 @@ TEST_F(RenderTest, FramesAreNumbered) {
 TEST_F(RenderTest, CameraPath) {
   write("path.json", R"({"keyframes": [{"frame": 0, "eye": [0, 1, 3], "target": [0, 1, 0]},
                                        {"frame": 2, "eye": [0.4, 1, 3], "target": [0, 1, 0], "fov": 40}]})");
-  expect_done("render" + scene("cornell") + kSmall + "--path path.json -o p#.exr");
+  expect_done("render" + scene("cornell") + kSmallPicture + "--path path.json -o p#.exr");
   EXPECT_TRUE(exists("p0.exr") && exists("p1.exr") && exists("p2.exr") && !exists("p3.exr"));
-  expect_done("render" + scene("cornell") + kSmall + "--eye 0.2,1,3 --target 0,1,0 --fov 44 -o direct.exr");
-  expect_done("render" + scene("cornell") + kSmall + "--eye 0,1,3 --target 0,1,0 -o first.exr");
+  expect_done("render" + scene("cornell") + kSmallPicture +
+              "--eye 0.2,1,3 --target 0,1,0 --fov 44 -o direct.exr");
+  expect_done("render" + scene("cornell") + kSmallPicture + "--eye 0,1,3 --target 0,1,0 -o first.exr");
   EXPECT_TRUE(same_pixels(exr("p0.exr"), exr("first.exr")));
 }
 
@@ -158,7 +160,8 @@ TEST_F(RenderTest, LightsAreAddedAndADefaultOneIsSaid) {
   EXPECT_NE(result.err.find("no light"), std::string::npos);
   EXPECT_EQ(std::get<std::string>(exr("x.exr").attributes["pinocchio.lights"]).find("--light"),
             std::string::npos);
-  expect_done("render t.obj " + kSmall + "--mode raytrace --light 1,2,3,0.5,nocast --light 3,2,1 -o x.exr");
+  expect_done("render t.obj " + kSmallPicture +
+              "--mode raytrace --light 1,2,3,0.5,nocast --light 3,2,1 -o x.exr");
   const std::string lights = std::get<std::string>(exr("x.exr").attributes["pinocchio.lights"]);
   EXPECT_EQ(nlohmann::json::parse(lights).size(), 1u);  // the one that casts
 }
@@ -167,7 +170,7 @@ TEST_F(RenderTest, ConfinedScenesNameFilesBelowTheirFolderOnly) {
   std::filesystem::create_directory(folder_ / "in");
   write("m.mtl", "newmtl m\nKd 1 0 0\n");
   write("in/t.obj", "mtllib ../m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  expect_done("render in/t.obj " + kSmall + "--mode raytrace --light 1,2,3 -o x.exr");
+  expect_done("render in/t.obj " + kSmallPicture + "--mode raytrace --light 1,2,3 -o x.exr");
   for (const char* command : {"render in/t.obj --confine --mode raytrace -o y.exr", "info in/t.obj --confine",
                               "measure in/t.obj --confine --mode raytrace"}) {
     const CommandResult result = run(command);
@@ -182,21 +185,21 @@ TEST_F(RenderTest, GeneratesScenesThatItCanDraw) {
   for (const char* name : {"spd:balls", "forest"})
     for (const char* file : {"s.gltf", "s.glb", "s.obj"}) {
       expect_done(std::string("generate ") + name + " --triangles 5000 -o " + file);
-      expect_done("render " + std::string(file) + " " + kSmall + "--light 2,3,4 -o x.exr");
+      expect_done("render " + std::string(file) + " " + kSmallPicture + "--light 2,3,4 -o x.exr");
     }
 }
 
 TEST_F(RenderTest, CompressionIsOfTheFileAlone) {
-  expect_done("render" + scene("cornell") + kSmall + "--mode raytrace -o zip.exr");
+  expect_done("render" + scene("cornell") + kSmallPicture + "--mode raytrace -o zip.exr");
   const auto bytes = [&](const std::string& name) { return std::filesystem::file_size(folder_ / name); };
   for (const std::string name : {"none", "zips", "piz", "rle"}) {
-    expect_done("render" + scene("cornell") + kSmall + "--mode raytrace --compression " + name + " -o " +
-                name + ".exr");
+    expect_done("render" + scene("cornell") + kSmallPicture + "--mode raytrace --compression " + name +
+                " -o " + name + ".exr");
     EXPECT_TRUE(same_pixels(exr("zip.exr"), exr(name + ".exr"))) << name;
     EXPECT_GT(bytes("none.exr") + (name == "none" ? 1 : 0), bytes(name + ".exr")) << name;
   }
   EXPECT_LT(bytes("zip.exr"), bytes("rle.exr"));
-  EXPECT_EQ(run("render" + scene("cornell") + kSmall + "--compression dwaa -o x.exr").exit_code, 2);
+  EXPECT_EQ(run("render" + scene("cornell") + kSmallPicture + "--compression dwaa -o x.exr").exit_code, 2);
 }
 
 // Where OpenGL is software; on hardware the two modes are one.
@@ -211,18 +214,18 @@ TEST_F(RenderTest, AutoNeedsNoSoftwareOpenGl) {
   EXPECT_EQ(automatic.exit_code, 0);
   EXPECT_EQ(automatic.err, "");
   EXPECT_FALSE(json("a.json")["system"].contains("gl"));
-  expect_done("render" + scene("two-lights") + kSmall + "--mode raytrace -o r.exr");
+  expect_done("render" + scene("two-lights") + kSmallPicture + "--mode raytrace -o r.exr");
   EXPECT_TRUE(same_pixels(exr("a.exr"), exr("r.exr")));
   for (const std::string mode : {"raytrace", "raster"})
     EXPECT_EQ(run(draw + "--mode " + mode + " -o x.exr").err, "") << mode;
 }
 
 TEST_F(RenderTest, FiguresAreAPicturesAndATraceHasItsSamples) {
-  expect_done("render" + scene("cornell") + kSmall +
+  expect_done("render" + scene("cornell") + kSmallPicture +
               "--mode raytrace --spp 4 --frames 0-1 --stats-json s.json --trace t.json");
   const nlohmann::json figures = json("s.json");
   EXPECT_EQ(figures["frames"], 2);
-  expect_done("render" + scene("cornell") + kSmall + "--mode raytrace --stats-json one.json");
+  expect_done("render" + scene("cornell") + kSmallPicture + "--mode raytrace --stats-json one.json");
   EXPECT_EQ(figures["rays"]["primary"], 4 * json("one.json")["rays"]["primary"].get<int>());
   int traced = 0;
   const nlohmann::json trace = json("t.json");
@@ -231,7 +234,7 @@ TEST_F(RenderTest, FiguresAreAPicturesAndATraceHasItsSamples) {
 }
 
 TEST_F(RenderTest, StatsHoldThePeakOfMemory) {
-  expect_done("render" + scene("cornell") + kSmall + "--mode raytrace --stats-json small.json");
+  expect_done("render" + scene("cornell") + kSmallPicture + "--mode raytrace --stats-json small.json");
   expect_done("render" + scene("cornell") +
               "--size 1600x1200 --quiet --mode raytrace --stats-json large.json");
   const double small = json("small.json")["memory"]["peak_bytes"],
@@ -247,7 +250,7 @@ TEST_F(RenderTest, StatsHoldThePeakOfMemory) {
 TEST_F(RenderTest, AFrameThatCannotBeWrittenEndsTheRun) {
   std::filesystem::create_directory(folder_ / "f0003.exr");
   const CommandResult result =
-      run("render" + scene("cornell") + kSmall + "--mode raytrace --turntable 40 -o f####.exr");
+      run("render" + scene("cornell") + kSmallPicture + "--mode raytrace --turntable 40 -o f####.exr");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.err.find("f0003.exr: cannot be written"), std::string::npos) << result.err;
   EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
@@ -256,7 +259,7 @@ TEST_F(RenderTest, AFrameThatCannotBeWrittenEndsTheRun) {
 }
 
 TEST_F(RenderTest, FilesOfARangeAreThoseOfSingleFrames) {
-  const std::string draw = "render" + scene("two-lights") + kSmall +
+  const std::string draw = "render" + scene("two-lights") + kSmallPicture +
                            "--mode raytrace --deterministic --exchange sync --turntable 5 ";
   expect_done(draw + "-o f#.exr --preview f#.png");
   expect_done(draw + "--frames 3 -o g#.exr --preview g#.png --threads 1");

@@ -7,7 +7,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSize{160, 120};
+constexpr glm::ivec2 kGatheredSize{160, 120};
 
 class AccumulatorTest : public FramesTest {
  protected:
@@ -37,12 +37,12 @@ TEST_P(AccumulatorTest, IsTheRenderersMeanOfAsManySamples) {
   constexpr int kSamples = 8;
   for (const Exchange exchange : {Exchange::sync, Exchange::pipelined}) {
     accumulator_->reset();
-    draw(samples_of(request(scene, settings_for(scene), kSize), kSamples), exchange,
+    draw(samples_of(request(scene, settings_for(scene), kGatheredSize), kSamples), exchange,
          [&](Frame& frame) { accumulator_->add(frame); });
     ASSERT_EQ(accumulator_->samples(), kSamples);
     Image<glm::vec4> mean;
     accumulator_->read_average(mean);
-    DrawRequest whole{.size = kSize, .backend = GetParam()};
+    DrawRequest whole{.size = kGatheredSize, .backend = GetParam()};
     whole.settings.spp = kSamples;
     const FrameResult rendered = draw_one(scene, whole);
     float largest = 0.0f;
@@ -61,11 +61,11 @@ TEST_P(AccumulatorTest, IsTheRenderersMeanWhereThePictureTravelsInBytes) {
   for (Light& light : scene.lights) light.intensity *= 4.0f;
   constexpr int kSamples = 8;
   const Settings two = by({{"design", "2"}});
-  draw(samples_of(request(scene, settings_for(scene, two), kSize), kSamples), Exchange::pipelined,
+  draw(samples_of(request(scene, settings_for(scene, two), kGatheredSize), kSamples), Exchange::pipelined,
        [&](Frame& frame) { accumulator_->add(frame); });
   Image<glm::vec4> mean;
   accumulator_->read_average(mean);
-  DrawRequest whole{.settings = two, .size = kSize, .backend = GetParam()};
+  DrawRequest whole{.settings = two, .size = kGatheredSize, .backend = GetParam()};
   whole.settings.spp = kSamples;
   const FrameResult rendered = draw_one(scene, whole);
   float brightest = 0.0f;
@@ -79,14 +79,14 @@ TEST_P(AccumulatorTest, IsTheRenderersMeanWhereThePictureTravelsInBytes) {
 
 TEST_P(AccumulatorTest, BeginsAnewWhereTheViewChangesAndCountsNoSampleTwice) {
   const Scene scene = load_or_die(source_path("scenes/cornell"));
-  std::vector<FrameRequest> requests = samples_of(request(scene, settings_for(scene), kSize), 4);
+  std::vector<FrameRequest> requests = samples_of(request(scene, settings_for(scene), kGatheredSize), 4);
   requests.push_back(requests.back());  // the same once more
   FrameRequest moved = requests.front();
   moved.view.camera.eye.x += 0.1f;
   const std::vector<FrameRequest> of_moved = samples_of(moved, 3);
   requests.insert(requests.end(), of_moved.begin(), of_moved.end());
   FrameRequest smaller = moved;
-  smaller.view.size = kSize / 2;
+  smaller.view.size = kGatheredSize / 2;
   requests.push_back(smaller);
   const std::vector<int> expected{1, 2, 3, 4, 4, 1, 2, 3, 1};
   std::vector<int> counts;
@@ -104,7 +104,7 @@ TEST_P(AccumulatorTest, BeginsAnewWhereTheViewChangesAndCountsNoSampleTwice) {
 
 TEST_P(AccumulatorTest, TakesNoAnswerOfAnotherView) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
-  FrameRequest moving = request(scene, settings_for(scene), kSize);
+  FrameRequest moving = request(scene, settings_for(scene), kGatheredSize);
   std::vector<FrameRequest> requests;
   for (int i = 0; i < 4; ++i) {
     moving.view.camera.eye.x += 0.05f;

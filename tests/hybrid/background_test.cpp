@@ -144,7 +144,7 @@ TEST(BackgroundPicture, EveryWayAndTheReferenceBlurTheSame) {
   Scene settled = scene;
   settle_environment(settled, resolved);
   Workers workers(2);
-  const View view{first_camera(scene), kSize};
+  const View view{first_camera(scene), kPlateSize};
   const ReferencePicture truth =
       reference_render(settled, view, 8, workers, nullptr, trace_options(resolved, view));
   for (Way way : ways()) {
@@ -195,7 +195,7 @@ TEST(BackgroundPicture, EveryProjectionSeesTheReferencesSky) {
     const Settings resolved = resolve(settings, analyze(scene)).value();
     Scene settled = scene;
     settle_environment(settled, resolved);
-    const View view{scene.cameras[0], kSize};
+    const View view{scene.cameras[0], kPlateSize};
     const ReferencePicture truth =
         reference_render(settled, view, 8, workers, nullptr, trace_options(resolved, view));
     for (const Way& way : ways()) {

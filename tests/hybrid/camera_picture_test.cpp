@@ -8,7 +8,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSize{160, 120};
+constexpr glm::ivec2 kCameraSize{160, 120};
 
 Scene scene_named(const std::string& name) {
   Scene scene = load_scene(PINOCCHIO_SOURCE_DIR "/scenes/" + name).value();
@@ -49,14 +49,14 @@ TEST(OrthographicPictures, AreTheSameByGpuAndCpu) {
     for (const PixelBox& part : {PixelBox{}, PixelBox{{31, 20}, {130, 101}}}) {
       const Scene scene = orthographic(name);
       const FrameResult cpu =
-          draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kSize, .part = part});
+          draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kCameraSize, .part = part});
       const auto seen =
           std::ranges::count_if(cpu.ids.pixels(), [](std::uint32_t id) { return id != kNoTriangle; });
       EXPECT_GT(seen, 500) << name;
       Settings reproject = by({{"design", "1"}});
       reproject.exchange = Exchange::reproject;
       for (const Settings& by_gpu : {by({{"design", "1"}}), by({{"design", "2"}}), reproject}) {
-        const FrameResult both = draw_one(scene, {.settings = by_gpu, .size = kSize, .part = part});
+        const FrameResult both = draw_one(scene, {.settings = by_gpu, .size = kCameraSize, .part = part});
         const Difference found = difference(both, cpu.ids, cpu.color);
         EXPECT_LE(found.ids, 20) << name;
         EXPECT_LE(found.color, 0.02f) << name;
@@ -67,9 +67,9 @@ TEST(OrthographicPictures, AreTheSameByGpuAndCpu) {
 TEST(OrthographicPictures, AreTheReferences) {
   for (const char* const name : {"two-lights", "cornell"}) {
     const Scene scene = orthographic(name);
-    const FrameResult cpu = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kSize});
+    const FrameResult cpu = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kCameraSize});
     Workers workers(2);
-    const ReferencePicture truth = reference_render(scene, {scene.cameras.front(), kSize}, 8, workers);
+    const ReferencePicture truth = reference_render(scene, {scene.cameras.front(), kCameraSize}, 8, workers);
     const Difference found = difference(cpu, truth.ids, truth.color);
     EXPECT_LE(found.ids, 10) << name;
     int far = 0;  // at edges of shadows and mirrored edges
@@ -88,8 +88,8 @@ TEST(RayPictures, AreTheReferences) {
     camera.projection = projection;
     if (projection == Projection::fisheye) camera.fov_deg = 200.0f;
     if (projection == Projection::perspective) camera.fov_deg = 50.0f, camera.distortion = {-0.3f, 0.1f};
-    const FrameResult cpu = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kSize});
-    const ReferencePicture truth = reference_render(scene, {camera, kSize}, 8, workers);
+    const FrameResult cpu = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kCameraSize});
+    const ReferencePicture truth = reference_render(scene, {camera, kCameraSize}, 8, workers);
     const Difference found = difference(cpu, truth.ids, truth.color);
     EXPECT_LE(found.ids, 10) << as_int(projection);
     int far = 0, seen = 0;  // at edges of shadows and mirrored edges
@@ -111,7 +111,7 @@ TEST(RayPictures, OfACamerasRaysAreItsPicture) {
     Engine engine;
     Settings settings = by({{"mode", "raytrace"}});
     settings.filter_textures = false;
-    const View by_camera{.camera = scene.cameras.front(), .size = kSize};
+    const View by_camera{.camera = scene.cameras.front(), .size = kCameraSize};
     const FrameResult expected = engine.render(scene, by_camera, settings).value();
     View by_rays = by_camera;
     auto rays = std::make_shared<PixelRays>();
@@ -134,7 +134,8 @@ TEST(RayPictures, GoToTheCpuByThemselves) {
   for (const Projection projection : {Projection::panorama, Projection::fisheye}) {
     Camera camera = scene.cameras.front();
     camera.projection = projection;
-    const auto picture = engine.render(scene, {.camera = camera, .size = kSize}, by({{"mode", "hybrid"}}));
+    const auto picture =
+        engine.render(scene, {.camera = camera, .size = kCameraSize}, by({{"mode", "hybrid"}}));
     ASSERT_TRUE(picture) << picture.error().message();
     EXPECT_FALSE(picture->settings.uses_gpu());
     const auto seen =
@@ -149,7 +150,7 @@ TEST(RayPictures, DepthOfAFisheyeIsTheDistance) {
   Camera& camera = scene.cameras.front();
   camera.projection = Projection::fisheye;
   camera.fov_deg = 120.0f;
-  const FrameResult picture = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kSize});
+  const FrameResult picture = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kCameraSize});
   const SurfaceImages surfaces = surfaces_of(picture);
   const Image<Ray> rays = camera_rays(picture.view);
   for (std::size_t i = 0; i < surfaces.z_eye.pixels().size(); ++i) {

@@ -12,7 +12,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSize{96, 72};
+constexpr glm::ivec2 kDenoisedSize{96, 72};
 
 // A plate over a floor, both matt, under an even sky with a bright part.
 Scene under_sky() {
@@ -55,7 +55,7 @@ Settings with(std::initializer_list<std::pair<std::string_view, std::string_view
 }
 
 FrameResult picture(const Scene& scene, const Settings& settings, PixelBox part = {}) {
-  return draw_one(scene, {.settings = settings, .size = kSize, .part = part});
+  return draw_one(scene, {.settings = settings, .size = kDenoisedSize, .part = part});
 }
 
 double distance(const Image<glm::vec4>& a, const Image<glm::vec4>& b) {
@@ -71,8 +71,8 @@ double distance(const Image<glm::vec4>& a, const Image<glm::vec4>& b) {
 // roughly.
 double distance_within(const FrameResult& a, const FrameResult& b) {
   double squares = 0.0, count = 0.0;
-  for (int y = 1; y + 1 < kSize.y; ++y)
-    for (int x = 1; x + 1 < kSize.x; ++x) {
+  for (int y = 1; y + 1 < kDenoisedSize.y; ++y)
+    for (int x = 1; x + 1 < kDenoisedSize.x; ++x) {
       bool inside = a.ids.at(x, y) != kNoTriangle;
       for (int k = 0; k < 9; ++k)
         inside = inside && a.ids.at(x + k % 3 - 1, y + k / 3 - 1) / 2 == a.ids.at(x, y) / 2;
@@ -172,10 +172,10 @@ TEST(DenoisedPicture, ManyPicturesAreTheSingleOnes) {
   other.eye += glm::vec3(0.5f, 0.2f, 0.0f);
   const std::vector<Camera> cameras{first_camera(scene), other, first_camera(scene)};
   Engine engine;
-  Image<glm::vec4> colors({kSize.x, 3 * kSize.y});
+  Image<glm::vec4> colors({kDenoisedSize.x, 3 * kDenoisedSize.y});
   FrameArrays to;
   to.color = colors.pixels().data();
-  ASSERT_TRUE(render_many(engine, scene, cameras, kSize, with({{"mode", "raytrace"}}, 2), to));
+  ASSERT_TRUE(render_many(engine, scene, cameras, kDenoisedSize, with({{"mode", "raytrace"}}, 2), to));
   const Image<glm::vec4> first = picture(scene, with({{"mode", "raytrace"}}, 2)).color;
   for (const std::size_t k : {std::size_t{0}, std::size_t{2}})
     EXPECT_EQ(
@@ -213,12 +213,12 @@ TEST(DenoisedPicture, PartsAndOtherCameras) {
 void expect_shown_samples_filtered(Sequence sequence, const std::vector<int>& counts) {
   const Scene scene = under_sky();
   Engine engine;
-  FrameRequest request{scene, nullptr, with({{"mode", "raytrace"}}, 1), {first_camera(scene), kSize}};
+  FrameRequest request{scene, nullptr, with({{"mode", "raytrace"}}, 1), {first_camera(scene), kDenoisedSize}};
   request.settings.sequence = sequence;
-  request.settings = engine.resolve(scene, kSize, request.settings).value();
+  request.settings = engine.resolve(scene, kDenoisedSize, request.settings).value();
   request.tracer = Engine::prepare(scene, request.settings);
   request.shows_samples = true;
-  Image<glm::vec4> sum(kSize), mean(kSize), shown;
+  Image<glm::vec4> sum(kDenoisedSize), mean(kDenoisedSize), shown;
   Renderer renderer(engine, {[&](Frame& frame) { frame.read_color(shown); }, {}});
   for (int k = 0; k < 8; ++k) {
     request.view = at_sample(request.view, k);

@@ -7,7 +7,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSize{160, 120};
+constexpr glm::ivec2 kSkySize{160, 120};
 
 // A plate over a floor that mirrors a little, under a sky that is darker on one side. No sample is brighter
 // than 1, where design 2, of 8 bits, would cut it off.
@@ -45,13 +45,13 @@ double mean_difference(const FrameResult& a, const FrameResult& b) {
 TEST(EnvironmentPicture, EveryScheduleDrawsTheSame) {
   const Scene scene = scene_under_sky();
   for (const int indirect : {0, 2}) {
-    const FrameResult alone = draw_one(scene, {sampled(by({{"mode", "raytrace"}}), indirect), kSize});
+    const FrameResult alone = draw_one(scene, {sampled(by({{"mode", "raytrace"}}), indirect), kSkySize});
     Settings camera_rays = by({{"mode", "hybrid"}});
     camera_rays.visibility = Processor::cpu;
     for (const auto& [settings, most] :
          {std::pair(by({{"mode", "hybrid"}}), 0.002), std::pair(camera_rays, 0.002),
           std::pair(by({{"design", "2"}}), 0.004)}) {
-      const FrameResult drawn = draw_one(scene, {sampled(settings, indirect), kSize});
+      const FrameResult drawn = draw_one(scene, {sampled(settings, indirect), kSkySize});
       EXPECT_LT(mean_difference(drawn, alone), most) << indirect;
       EXPECT_TRUE(same(drawn.ids, alone.ids) || settings.visibility == Processor::gpu);
     }
@@ -102,8 +102,8 @@ TEST(EnvironmentPicture, TheMeanOfDesignTwosSamplesIsNotCutOff) {
   scene.environment = std::make_shared<const Environment>(std::move(sun));
   Settings alone = sampled(by({{"mode", "raytrace"}}), 1), two = sampled(by({{"design", "2"}}), 1);
   alone.spp = two.spp = 16;
-  const FrameResult exact = draw_one(scene, {alone, kSize});
-  EXPECT_LT(mean_difference(draw_one(scene, {two, kSize}), exact), 0.004);
+  const FrameResult exact = draw_one(scene, {alone, kSkySize});
+  EXPECT_LT(mean_difference(draw_one(scene, {two, kSkySize}), exact), 0.004);
   double brightest = 0.0;
   for (const glm::vec4& c : exact.color.pixels()) brightest = std::max(brightest, static_cast<double>(c.g));
   EXPECT_GT(brightest, 1.0);
@@ -116,13 +116,13 @@ TEST(EnvironmentPicture, TheFirstFrameHasAllItsLight) {
   one.exchange = alone.exchange = Exchange::sync;
   for (const bool tiles : {true, false}) {
     one.tiles = tiles;
-    EXPECT_LT(mean_difference(draw_one(scene, {one, kSize}), draw_one(scene, {alone, kSize})), 0.002)
+    EXPECT_LT(mean_difference(draw_one(scene, {one, kSkySize}), draw_one(scene, {alone, kSkySize})), 0.002)
         << tiles;
   }
 }
 
 TEST(EnvironmentPicture, RasterShowsItBehind) {
-  const FrameResult drawn = draw_one(scene_under_sky(), {by({{"mode", "raster"}}), kSize});
+  const FrameResult drawn = draw_one(scene_under_sky(), {by({{"mode", "raster"}}), kSkySize});
   for (const glm::vec4& c : drawn.color.pixels())
     ASSERT_TRUE(c.a > 0.0f || std::abs(c.g - 0.3f) < 1e-3f) << c.g;
 }

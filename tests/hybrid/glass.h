@@ -10,7 +10,7 @@
 
 namespace pinocchio {
 
-inline constexpr glm::ivec2 kSize{32, 24}, kLarger{96, 72};
+inline constexpr glm::ivec2 kGlassSize{32, 24}, kLarger{96, 72};
 inline constexpr glm::vec3 kColor{0.8f, 0.5f, 0.2f};  // left after kDistance of it
 inline constexpr float kDistance = 0.5f;
 
@@ -49,11 +49,11 @@ inline std::vector<Way> ways() {
   return all;
 }
 
-inline FrameResult drawn(const Scene& scene, Settings settings, glm::ivec2 size = kSize) {
+inline FrameResult drawn(const Scene& scene, Settings settings, glm::ivec2 size = kGlassSize) {
   return draw_one(scene, {.settings = std::move(settings), .size = size});
 }
 
-inline ReferencePicture precise(const Scene& scene, glm::ivec2 size = kSize,
+inline ReferencePicture precise(const Scene& scene, glm::ivec2 size = kGlassSize,
                                 GlassShadows shadows = GlassShadows::tinted) {
   Workers workers(2);
   return reference_render(scene, {first_camera(scene), size}, 8, workers, nullptr,

@@ -131,7 +131,7 @@ TEST(GlassShadows, TheMaskStaysAndTheLightIsTraced) {
     EXPECT_EQ(middle(opaque.color), glm::vec3(0.0f)) << way.name;
   }
   EXPECT_EQ(precise(scene).mask.get(16, 12), 0u);
-  EXPECT_EQ(middle(precise(scene, kSize, GlassShadows::opaque).color), glm::vec3(0.0f));
+  EXPECT_EQ(middle(precise(scene, kGlassSize, GlassShadows::opaque).color), glm::vec3(0.0f));
 }
 
 // A lantern: walls of glass with a lid around a block, on a floor; the eye above looks in.
@@ -207,7 +207,7 @@ TEST(GlassShadows, LightsWithASizeAgreeInTheMean) {
   const Scene scene = lantern({all[2], all[3]});
   // What comes through glass.
   const glm::dvec3 exact =
-      sum_of(precise(scene).color) - sum_of(precise(scene, kSize, GlassShadows::opaque).color);
+      sum_of(precise(scene).color) - sum_of(precise(scene, kGlassSize, GlassShadows::opaque).color);
   std::vector<Way> all_ways = ways();
   Settings settings = all_ways.front().settings;
   settings.spp = 64;
@@ -305,7 +305,7 @@ TEST(GlassShadows, TheSkyAgreesInTheMean) {
   for (int y = 3; y < 6; ++y)
     for (int x = 10; x < 14; ++x) sky.at(x, y) = glm::vec3(20.0f);
   scene.environment = std::make_shared<const Environment>(std::move(sky));
-  const glm::dvec3 exact = sum_of(precise(scene, kSize).color);
+  const glm::dvec3 exact = sum_of(precise(scene, kGlassSize).color);
   for (const Way& way : ways()) {
     Settings settings = way.settings;
     settings.spp = 64;

@@ -12,7 +12,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSize{160, 120};
+constexpr glm::ivec2 kInspectedSize{160, 120};
 constexpr float kHalfStep = 0x1p-11f;  // relative
 constexpr float kDark = 0.01f, kNothingAsked = 0.18f;
 
@@ -32,7 +32,7 @@ class InspectTest : public FramesTest {
   }
   // One frame of the scene, by these settings.
   void look_at(const Scene& scene, const Settings& settings, const std::function<void(Frame&)>& look) {
-    draw({request(scene, settings, kSize)}, Exchange::sync, look);
+    draw({request(scene, settings, kInspectedSize)}, Exchange::sync, look);
   }
   Image<glm::vec4> view(const Frame& frame, Layer what, int slot = 0) {
     return read(pass_->draw(frame, what, slot));
@@ -129,8 +129,8 @@ TEST_P(InspectTest, NormalsAreTheTracers) {
 // Counts white, black and grey pixels of a mask's picture while it holds them against the mask.
 glm::ivec3 check_mask(const Image<glm::vec4>& picture, const FrameSlot& frame, int slot) {
   glm::ivec3 count(0);
-  for (int y = 0; y < kSize.y; ++y)
-    for (int x = 0; x < kSize.x; ++x) {
+  for (int y = 0; y < kInspectedSize.y; ++y)
+    for (int x = 0; x < kInspectedSize.x; ++x) {
       const glm::vec4& color = picture.at(x, y);
       const bool white = color.g == 1.0f, black = color.g == 0.0f;
       EXPECT_TRUE(white || black || is_grey(color, kNothingAsked));
@@ -195,7 +195,7 @@ TEST_P(InspectTest, AtLowerResolutionsItShowsWhatTheCompositeReads) {
 
 TEST_P(InspectTest, AgeIsFlatUnlessReprojectedAndThenTellsHoles) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
-  std::vector<FrameRequest> moving(6, request(scene, settings_for(scene), kSize));
+  std::vector<FrameRequest> moving(6, request(scene, settings_for(scene), kInspectedSize));
   for (int i = 0; i < 6; ++i) {
     moving[static_cast<std::size_t>(i)].view.camera.eye.x += 0.1f * static_cast<float>(i);
   }
@@ -264,7 +264,7 @@ TEST_P(InspectTest, EverySlotOfManyLights) {
 // A reprojected frame's mask is the older one's where its points were then: what the picture shows.
 TEST_P(InspectTest, AReprojectedMaskFollowsThePicture) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
-  std::vector<FrameRequest> jittered(4, request(scene, settings_for(scene), kSize));
+  std::vector<FrameRequest> jittered(4, request(scene, settings_for(scene), kInspectedSize));
   for (std::size_t i = 0; i < jittered.size(); ++i) jittered[i].view.jitter.x = 1e-4f * static_cast<float>(i);
   Image<glm::vec4> own;
   int delivered = 0;

@@ -9,7 +9,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSize{100, 100};
+constexpr glm::ivec2 kLayerSize{100, 100};
 constexpr std::size_t kPixels = 10000;
 
 Scene square(float half, std::uint32_t material = 0) {
@@ -58,7 +58,7 @@ Layers draw(const Scene& scene, const MotionTo& motion, const Settings& settings
   Engine engine;
   Layers layers;
   const auto done =
-      render_many(engine, scene, scene.cameras, kSize, settings, layers.arrays(), nullptr, {&motion, 1});
+      render_many(engine, scene, scene.cameras, kLayerSize, settings, layers.arrays(), nullptr, {&motion, 1});
   EXPECT_TRUE(done);
   return layers;
 }
@@ -134,10 +134,10 @@ TEST(DataLayers, AlphaIsTheShareOfLightThatIsHeldBack) {
     if (sky)
       scene.environment = std::make_shared<const Environment>(Image<glm::vec3>({8, 4}, glm::vec3(0.5f)), "");
     Settings settings = by({{"mode", "raytrace"}});
-    const FrameResult plain = draw_one(scene, {.settings = settings, .size = kSize});
+    const FrameResult plain = draw_one(scene, {.settings = settings, .size = kLayerSize});
     EXPECT_EQ(plain.color.at(20, 50).a, 1.0f);
     settings.coverage = true;
-    const FrameResult covered = draw_one(scene, {.settings = settings, .size = kSize});
+    const FrameResult covered = draw_one(scene, {.settings = settings, .size = kLayerSize});
     EXPECT_NEAR(covered.color.at(20, 50).a, 0.25f, 1e-5f);
     EXPECT_NEAR(covered.color.at(50, 50).a, 1.0f - 0.75f * 0.75f, 1e-5f);
     EXPECT_EQ(covered.color.at(80, 50).a, 1.0f);
@@ -152,7 +152,7 @@ TEST(DataLayers, CoverageGoesToTheCpu) {
   Settings settings;
   settings.coverage = true;
   Engine engine(EngineOptions{.device = "no such device"});
-  const auto picture = engine.render(scene, {.camera = scene.cameras.front(), .size = kSize}, settings);
+  const auto picture = engine.render(scene, {.camera = scene.cameras.front(), .size = kLayerSize}, settings);
   ASSERT_TRUE(picture) << picture.error().message();
   EXPECT_FALSE(picture->settings.uses_gpu());
   settings.composite = Processor::gpu;

@@ -13,7 +13,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSize{200, 150};
+constexpr glm::ivec2 kMapSize{200, 150};
 
 Texture noise(glm::ivec2 size, std::uint32_t seed) {
   Texture texture{"noise", Image<glm::u8vec4>(size)};
@@ -174,9 +174,9 @@ TEST(Maps, LookTheSameToGpuCpuAndReference) {
   Workers workers(2);
   for (const Feature& f : features()) {
     const Scene scene = plate_with(f.maps, noise(f.texture, 9), material_of(f));
-    const FrameResult hybrid = draw_one(scene, {.settings = by({{"mode", "hybrid"}}), .size = kSize});
-    const FrameResult traced = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kSize});
-    const ReferencePicture precise = reference_render(scene, {first_camera(scene), kSize}, 8, workers);
+    const FrameResult hybrid = draw_one(scene, {.settings = by({{"mode", "hybrid"}}), .size = kMapSize});
+    const FrameResult traced = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kMapSize});
+    const ReferencePicture precise = reference_render(scene, {first_camera(scene), kMapSize}, 8, workers);
     const double gpu = share_apart(hybrid.color, traced.color),
                  cpu = share_apart(traced.color, precise.color);
     std::printf("  %s: GPU %.4f %%, CPU %.4f %% of pixels more than 1/255 off\n", f.name, 100.0 * gpu,
@@ -193,7 +193,7 @@ TEST(Maps, CoordinatesBeyondAFloatsRange) {
   maps.base_color.uv_from_texcoord = {3e38f, 3e38f, 3e38f, 3e38f, 3e38f, 3e38f};
   const Scene scene = plate_with(maps, noise({7, 5}, 9));
   const auto draw = [&](const char* mode) {
-    return draw_one(scene, {.settings = by({{"mode", mode}}), .size = kSize}).color;
+    return draw_one(scene, {.settings = by({{"mode", mode}}), .size = kMapSize}).color;
   };
   const Image<glm::vec4> traced = draw("raytrace");
   for (const glm::vec4& p : traced.pixels())
@@ -218,7 +218,7 @@ TEST(Maps, ACoatLiesWhereTexturesLetNoLightThrough) {
   halves.texels.at(0, 0) = glm::u8vec4(0, 0, 0, 255);
   const Scene coated = plate_with(maps, halves, material_from_surface(maps.surface, Shading::from_file));
   const auto draw = [](const Scene& scene, const char* mode) {
-    return draw_one(scene, {.settings = by({{"mode", mode}}), .size = kSize}).color;
+    return draw_one(scene, {.settings = by({{"mode", mode}}), .size = kMapSize}).color;
   };
   const Image<glm::vec4> traced = draw(coated, "raytrace");
   maps.surface.base_color = glm::vec3(0.0f);  // lets no light through
@@ -226,8 +226,9 @@ TEST(Maps, ACoatLiesWhereTexturesLetNoLightThrough) {
   for (const Scene* scene : {&coated, &black}) {
     const Image<glm::vec4> picture = draw(*scene, "raytrace");
     EXPECT_LT(share_apart(draw(*scene, "hybrid"), picture), 0.002);
-    EXPECT_LT(share_apart(picture, reference_render(*scene, {first_camera(*scene), kSize}, 8, workers).color),
-              0.002);
+    EXPECT_LT(
+        share_apart(picture, reference_render(*scene, {first_camera(*scene), kMapSize}, 8, workers).color),
+        0.002);
   }
   maps.surface.base_color = glm::vec3(1.0f);
   maps.surface.layers.coat = 0.0f;
@@ -238,9 +239,9 @@ TEST(Maps, ACoatLiesWhereTexturesLetNoLightThrough) {
 
 // The mean of the reference's samples, each of which averages textures over a square of that side.
 Image<glm::vec4> precise_mean(const Scene& scene, int samples, float texture_footprint, Workers& workers) {
-  Image<glm::vec4> sum(kSize);
+  Image<glm::vec4> sum(kMapSize);
   for (int k = 0; k < samples; ++k) {
-    const View view = at_sample({first_camera(scene), kSize}, k);
+    const View view = at_sample({first_camera(scene), kMapSize}, k);
     const ReferencePicture sample =
         reference_render(scene, view, 8, workers, nullptr, {.texture_footprint = texture_footprint});
     for (std::size_t i = 0; i < sum.pixels().size(); ++i)
@@ -257,7 +258,7 @@ TEST(Maps, EachOfManySamplesAveragesTexturesOverItsShareOfThePixel) {
   const Scene scene = plate_with(maps, noise({512, 512}, 9));
   constexpr int kSamples = 4;
   const auto draw = [&](const char* mode, bool filters) {
-    DrawRequest request{.settings = by({{"mode", mode}}), .size = kSize};
+    DrawRequest request{.settings = by({{"mode", mode}}), .size = kMapSize};
     request.settings.spp = kSamples;
     request.settings.filter_textures = filters;
     return draw_one(scene, request).color;
@@ -295,7 +296,7 @@ TEST(Maps, AHoleIsNotThereForCameraShadowAndMirror) {
     mesh->triangle_materials.resize(2);
   }
   for (const char* mode : {"raytrace", "hybrid"}) {
-    const DrawRequest request{.settings = by({{"mode", mode}}), .size = kSize};
+    const DrawRequest request{.settings = by({{"mode", mode}}), .size = kMapSize};
     const FrameResult a = draw_one(with, request), b = draw_one(without, request);
     EXPECT_TRUE(same(a.ids, b.ids)) << mode;
     EXPECT_TRUE(std::ranges::equal(a.mask.bytes(), b.mask.bytes())) << mode;
@@ -317,8 +318,8 @@ TEST(Maps, ASurfaceThatBlendsCountsByItsAlpha) {
   scene.lights.clear();
   scene.ambient_light = glm::vec3(0.5f);
   for (const char* mode : {"raytrace", "hybrid"}) {
-    const FrameResult picture = draw_one(scene, {.settings = by({{"mode", mode}}), .size = kSize});
-    const glm::vec3 middle(picture.color.at(kSize.x / 2, kSize.y / 2));
+    const FrameResult picture = draw_one(scene, {.settings = by({{"mode", mode}}), .size = kMapSize});
+    const glm::vec3 middle(picture.color.at(kMapSize.x / 2, kMapSize.y / 2));
     EXPECT_NEAR(middle.r, 0.75f * 0.5f, 1e-3f) << mode;
     EXPECT_NEAR(middle.b, 0.25f * 0.5f, 1e-3f) << mode;
   }
@@ -359,8 +360,8 @@ TEST(Maps, WithoutLightsAmbientTimesBaseTimesOcclusionPlusEmission) {
     Scene scene = plate_with(maps, flat({188, 100, 50, 255}));
     scene.lights.clear();
     scene.ambient_light = glm::vec3(0.3f);
-    return glm::vec3(draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kSize})
-                         .color.at(kSize.x / 2, kSize.y / 2));
+    return glm::vec3(draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kMapSize})
+                         .color.at(kMapSize.x / 2, kMapSize.y / 2));
   };
   const float texel = srgb8_to_linear(188);
   EXPECT_NEAR(drawn(false).r, 0.3f * 0.8f * texel * (188.0f / 255.0f) + 0.5f * texel, 1e-5f);

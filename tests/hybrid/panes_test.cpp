@@ -137,7 +137,8 @@ TEST(Panes, WhatIsPartlyGlassReturnsAllLight) {
           cosine);
       for (Way way : ways()) {
         way.settings.spp = 32;
-        const glm::dvec3 mean = sum_of(drawn(scene, way.settings).color) / (1.0 * kSize.x * kSize.y);
+        const glm::dvec3 mean =
+            sum_of(drawn(scene, way.settings).color) / (1.0 * kGlassSize.x * kGlassSize.y);
         EXPECT_NEAR(mean.g, 1.0, 0.015) << way.name << " " << transmission << " " << cosine;
       }
     }

@@ -11,7 +11,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSize{800, 600};
+constexpr glm::ivec2 kPictureSize{800, 600};
 
 // As a screen shows it, 0 to 255.
 glm::vec3 shown(const glm::vec4& linear) {
@@ -32,8 +32,8 @@ DrawRequest by_mode(std::string_view mode, glm::ivec2 size = {320, 240}) {
 }
 
 void compare_modes(const Scene& scene, const std::string& name) {
-  const FrameResult hybrid = draw_one(scene, by_mode("hybrid", kSize));
-  const FrameResult traced = draw_one(scene, by_mode("raytrace", kSize));
+  const FrameResult hybrid = draw_one(scene, by_mode("hybrid", kPictureSize));
+  const FrameResult traced = draw_one(scene, by_mode("raytrace", kPictureSize));
   std::size_t other_triangle = 0;
   float largest = 0.0f;
   for (std::size_t i = 0; i < hybrid.ids.pixels().size(); ++i) {
@@ -69,13 +69,13 @@ TEST(ModesOfTheBunny, HybridIsRaytrace) {
 // Every light on, by the GPU and by the CPU, at the GPU's hits.
 TEST_P(Modes, PhongOfTheGpuIsPhongOfTheCpu) {
   const Scene scene = load_or_die(source_path(GetParam()));
-  const FrameResult raster = draw_one(scene, by_mode("raster", kSize));
+  const FrameResult raster = draw_one(scene, by_mode("raster", kPictureSize));
   Workers workers(2);
   const Tracer tracer(scene.mesh);
-  const TraceJob job{scene, tracer, workers, view_params(first_camera(scene), kSize)};
-  MaskImage lit(kSize, MaskImage::bits_for(static_cast<int>(casting_lights(scene).size())));
-  for (int y = 0; y < kSize.y; ++y)
-    for (int x = 0; x < kSize.x; ++x)
+  const TraceJob job{scene, tracer, workers, view_params(first_camera(scene), kPictureSize)};
+  MaskImage lit(kPictureSize, MaskImage::bits_for(static_cast<int>(casting_lights(scene).size())));
+  for (int y = 0; y < kPictureSize.y; ++y)
+    for (int x = 0; x < kPictureSize.x; ++x)
       for (int slot = 0; slot < lit.bits(); ++slot) lit.set_bit(x, y, slot);
   Image<glm::vec4> by_cpu;
   shade(job, raster.ids, lit, {}, by_cpu);

@@ -5,7 +5,7 @@
 
 namespace pinocchio {
 
-inline constexpr glm::ivec2 kSize{160, 120};
+inline constexpr glm::ivec2 kPlateSize{160, 120};
 inline const glm::vec3 kColor{0.25f, 0.5f, 0.75f};
 
 // Two plates above each other that mirror a little, under a sky of one colour; with a pane that blends before
@@ -60,7 +60,7 @@ inline FrameResult drawn(const Scene& scene, Settings settings, std::string_view
   settings.exchange.fill(Exchange::sync);
   settings.spp = spp;
   EXPECT_TRUE(set(settings, "background", background));
-  return draw_one(scene, {settings, kSize});
+  return draw_one(scene, {settings, kPlateSize});
 }
 
 // The largest difference to the transparent picture over the colour, in any pixel and component.

@@ -4,7 +4,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSize{160, 120};
+constexpr glm::ivec2 kRelitSize{160, 120};
 
 using RelightTest = FramesTest;
 INSTANTIATE_TEST_SUITE_P(Backends, RelightTest, kBackends, backend_name);
@@ -29,7 +29,7 @@ SceneStats recounted(const Scene& scene, SceneStats stats) {
 TEST_P(RelightTest, IsTheSceneAsIfItHadThoseLightsFromTheStart) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
   const SceneStats stats = analyze(scene);
-  const FrameRequest before = request(scene, settings_for(scene), kSize);
+  const FrameRequest before = request(scene, settings_for(scene), kRelitSize);
   std::vector<FrameRequest> relit, fresh;
   for (const std::vector<Light>& lights : changes_of(scene.lights)) {
     FrameRequest changed = before;
@@ -41,7 +41,7 @@ TEST_P(RelightTest, IsTheSceneAsIfItHadThoseLightsFromTheStart) {
     relit.push_back(before);  // old and new in flight at once
     fresh.push_back(relit.back());
     relit.push_back(changed);
-    fresh.push_back(request(other, changed.settings, kSize));
+    fresh.push_back(request(other, changed.settings, kRelitSize));
   }
   std::vector<Image<glm::vec4>> expected;
   draw(fresh, Exchange::sync, [&](Frame& frame) { expected.push_back(read(frame.texture())); });

@@ -27,7 +27,7 @@ TEST(ShadowCatcherPicture, IsTheReferences) {
   settings = resolve(settings, analyze(scene)).value();
   settle_environment(scene, settings);
   Workers workers(2);
-  const View view{first_camera(scene), kSize};
+  const View view{first_camera(scene), kPlateSize};
   const ReferencePicture truth =
       reference_render(scene, view, 8, workers, nullptr, trace_options(settings, view));
   std::size_t apart = 0, caught = 0;
@@ -122,9 +122,9 @@ TEST(ShadowCatcherPicture, IsReprojected) {
   cameras[1].eye.x += 0.05f;
   cameras[2].eye.x += 0.1f;
   settings.exchange = Exchange::sync;
-  const std::vector<FrameResult> truth = draw_all(scene, {settings, kSize}, cameras);
+  const std::vector<FrameResult> truth = draw_all(scene, {settings, kPlateSize}, cameras);
   settings.exchange = Exchange::reproject;
-  const std::vector<FrameResult> warped = draw_all(scene, {settings, kSize}, cameras);
+  const std::vector<FrameResult> warped = draw_all(scene, {settings, kPlateSize}, cameras);
   ASSERT_EQ(warped.size(), 3u);
   EXPECT_GT(warped[2].record.age_frames, 0);
   double warped_error = 0.0, stale_error = 0.0;
@@ -145,23 +145,23 @@ TEST(ShadowCatcherPicture, HasTheSameBitsByAnyLanesInPartsAndInBatches) {
   settings.environment_light = EnvironmentMethod::prefiltered;
   settings.sky_occlusion = 3;
   settings.spp = 2;
-  const FrameResult whole = draw_one(scene, {settings, kSize});
+  const FrameResult whole = draw_one(scene, {settings, kPlateSize});
   for (const Isa isa : supported_isas()) {
     Settings other = settings;
     other.isa = isa;
-    EXPECT_TRUE(same_pixels(whole, draw_one(scene, {other, kSize}))) << static_cast<int>(isa);
+    EXPECT_TRUE(same_pixels(whole, draw_one(scene, {other, kPlateSize}))) << static_cast<int>(isa);
   }
   const PixelBox part{{37, 21}, {120, 99}};
-  const FrameResult cropped = draw_one(scene, {.settings = settings, .size = kSize, .part = part});
+  const FrameResult cropped = draw_one(scene, {.settings = settings, .size = kPlateSize, .part = part});
   for (int y = part.lo.y; y < part.hi.y; ++y)
     for (int x = part.lo.x; x < part.hi.x; ++x)
       ASSERT_EQ(cropped.color.at(x - part.lo.x, y - part.lo.y), whole.color.at(x, y)) << x << " " << y;
   Engine engine;
-  Image<glm::vec4> color(kSize);
+  Image<glm::vec4> color(kPlateSize);
   FrameArrays arrays;
   arrays.color = color.pixels().data();
   const std::vector<Camera> cameras{first_camera(scene)};
-  ASSERT_TRUE(render_many(engine, scene, cameras, kSize, settings, arrays));
+  ASSERT_TRUE(render_many(engine, scene, cameras, kPlateSize, settings, arrays));
   EXPECT_TRUE(same(color, whole.color));
 }
 

@@ -54,17 +54,17 @@ Scene slab(float thickness, float ior) {
   return scene;
 }
 
-constexpr glm::ivec2 kSize{32, 24};
+constexpr glm::ivec2 kVolumeSize{32, 24};
 
 glm::vec3 middle(const Image<glm::vec4>& picture) {
   return glm::vec3(picture.at(picture.width() / 2, picture.height() / 2));
 }
 
-Image<glm::vec4> drawn(const Scene& scene, const char* mode, glm::ivec2 size = kSize) {
+Image<glm::vec4> drawn(const Scene& scene, const char* mode, glm::ivec2 size = kVolumeSize) {
   return draw_one(scene, {.settings = by({{"mode", mode}}), .size = size}).color;
 }
 
-Image<glm::vec4> precise(const Scene& scene, glm::ivec2 size = kSize) {
+Image<glm::vec4> precise(const Scene& scene, glm::ivec2 size = kVolumeSize) {
   Workers workers(2);
   return reference_render(scene, {first_camera(scene), size}, 8, workers).color;
 }

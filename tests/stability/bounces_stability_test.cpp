@@ -3,10 +3,6 @@
 namespace pinocchio::stability {
 namespace {
 
-TEST_P(DefaultHolds, WithoutFailure) {
-  expect_default_holds(GetParam());
-}
-
 INSTANTIATE_TEST_SUITE_P(Bounces, DefaultHolds, testing::ValuesIn(bounce_cases()), test_name);
 
 TEST(Bounces, OneLengthForAllScenesFails) {

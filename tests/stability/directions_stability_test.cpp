@@ -8,10 +8,6 @@
 namespace pinocchio::stability {
 namespace {
 
-TEST_P(DefaultHolds, WithoutFailure) {
-  expect_default_holds(GetParam());
-}
-
 INSTANTIATE_TEST_SUITE_P(Directions, DefaultHolds, testing::ValuesIn(direction_cases()), test_name);
 
 TEST(Directions, TheProjectedTestLeaksAlongSplitPlanes) {

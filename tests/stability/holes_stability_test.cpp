@@ -3,10 +3,6 @@
 namespace pinocchio::stability {
 namespace {
 
-TEST_P(DefaultHolds, WithoutFailure) {
-  expect_default_holds(GetParam());
-}
-
 INSTANTIATE_TEST_SUITE_P(Holes, DefaultHolds, testing::ValuesIn(hole_cases()), test_name);
 
 // It is longer than the way from leaf to leaf, and skips some.

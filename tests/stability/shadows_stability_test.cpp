@@ -3,10 +3,6 @@
 namespace pinocchio::stability {
 namespace {
 
-TEST_P(DefaultHolds, WithoutFailure) {
-  expect_default_holds(GetParam());
-}
-
 INSTANTIATE_TEST_SUITE_P(Shadows, DefaultHolds, testing::ValuesIn(shadow_cases()), test_name);
 
 TEST(Shadows, OneLengthForAllScenesFails) {

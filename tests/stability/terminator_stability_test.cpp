@@ -3,9 +3,6 @@
 namespace pinocchio::stability {
 namespace {
 
-TEST_P(DefaultHolds, WithoutFailure) {
-  expect_default_holds(GetParam());
-}
 INSTANTIATE_TEST_SUITE_P(Terminator, DefaultHolds, testing::ValuesIn(terminator_cases()), test_name);
 
 TEST(Terminator, WithoutRemedyFacetsAreDark) {

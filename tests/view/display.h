@@ -21,6 +21,8 @@
 
 namespace pinocchio {
 
+inline constexpr const char* kStill = "n";  // key: samples are not gathered, so that pictures stand still
+
 class WindowTest : public testing::Test {
  protected:
   void SetUp() override {

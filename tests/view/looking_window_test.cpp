@@ -5,8 +5,6 @@
 namespace pinocchio {
 namespace {
 
-constexpr const char* kStill = "n";  // key: samples are not gathered, so that pictures stand still
-
 class LookingTest : public WindowTest {
  protected:
   // What P prints while the camera flies: as long as nothing moves, a budget gives up nothing.

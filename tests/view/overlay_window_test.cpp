@@ -6,8 +6,6 @@
 namespace pinocchio {
 namespace {
 
-constexpr const char* kStill = "n";  // key: samples are not gathered, so that pictures stand still
-
 class OverlayTest : public WindowTest {
  protected:
   [[nodiscard]] std::string eye() { return option(command_line(), "--eye"); }

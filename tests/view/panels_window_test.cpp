@@ -24,7 +24,7 @@ class PanelsTest : public WindowTest {
   }
 };
 
-constexpr const char* kPicture = "440x500+350+10";  // right of the panels, above messages
+constexpr const char* kBesidePanels = "440x500+350+10";  // right of the panels, above messages
 
 // Each changes what is drawn, is in the saved scene, and is taken back.
 TEST_F(PanelsTest, AMaterialIsPickedAndChanged) {
@@ -44,7 +44,7 @@ TEST_F(PanelsTest, AMaterialIsPickedAndChanged) {
     EXPECT_TRUE(becomes(
         [&] {
           grab("after.png");
-          return different_in(kPicture, "before.png", "after.png") > 100;
+          return different_in(kBesidePanels, "before.png", "after.png") > 100;
         },
         20.0))
         << what;
@@ -71,14 +71,14 @@ TEST_F(PanelsTest, AMaterialIsPickedAndChanged) {
   EXPECT_TRUE(becomes(
       [&] {
         grab("undone.png");
-        return different_in(kPicture, "first.png", "undone.png") == 0;
+        return different_in(kBesidePanels, "first.png", "undone.png") == 0;
       },
       20.0));
   key("ctrl+y");
   EXPECT_TRUE(becomes(
       [&] {
         grab("redone.png");
-        return different_in(kPicture, "first.png", "redone.png") > 100;
+        return different_in(kBesidePanels, "first.png", "redone.png") > 100;
       },
       20.0));
   key("ctrl+s");
@@ -106,7 +106,7 @@ TEST_F(PanelsTest, AMaterialIsSeenInTheNextFrame) {
     EXPECT_FALSE(exists(number + 1));
   }
   key("k");
-  EXPECT_GT(different_in(kPicture, file(1), file(2)), 100);
+  EXPECT_GT(different_in(kBesidePanels, file(1), file(2)), 100);
   EXPECT_EQ(different(file(1), file(3)), 0);
   expect_clean_close();
 }
@@ -194,7 +194,7 @@ TEST_F(PanelsTest, ALightIsMovedAndPutBack) {
   EXPECT_TRUE(becomes(
       [&] {
         grab("after.png");
-        return different_in(kPicture, "before.png", "after.png") > 10000;
+        return different_in(kBesidePanels, "before.png", "after.png") > 10000;
       },
       20.0));
   pause_ms(500);  // a step of its own
@@ -202,7 +202,7 @@ TEST_F(PanelsTest, ALightIsMovedAndPutBack) {
   EXPECT_TRUE(becomes(
       [&] {
         grab("undone.png");
-        return different_in(kPicture, "before.png", "undone.png") == 0;
+        return different_in(kBesidePanels, "before.png", "undone.png") == 0;
       },
       20.0));
   expect_clean_close();

@@ -8,8 +8,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr const char* kStill = "n";  // key: samples are not gathered, so that pictures stand still
-constexpr double kLength_s = 4.0;    // of the windmill's animation
+constexpr double kLength_s = 4.0;  // of the windmill's animation
 constexpr double kFrame_s = 1.0 / 24.0;
 
 class PlaybackWindowTest : public WindowTest {

@@ -7,7 +7,8 @@
 namespace pinocchio {
 namespace {
 
-constexpr const char* kPicture = "420x400+370+60";  // right of the panel, below captions, above messages
+constexpr const char* kBesideWidgets =
+    "420x400+370+60";  // right of the panel, below captions, above messages
 constexpr int kPanelX = 8, kPanelY = 60;
 constexpr int kWidgetX = kPanelX + 227;  // meets every row of widgets, between no two of them
 
@@ -72,23 +73,25 @@ TEST_F(WidgetsTest, TheRangeOfDepthIsDragged) {
   open_drawing("cornell");
   ASSERT_NO_FATAL_FAILURE(show(kDepthLine));
   still("automatic.png");
-  EXPECT_GT(different_in(kPicture, "opened.png", "automatic.png"), 100000);
+  EXPECT_GT(different_in(kBesideWidgets, "opened.png", "automatic.png"), 100000);
   const std::vector<int> before = rows();
   ASSERT_EQ(before.size(), kCompare + 1u);
   const int checkbox_y = (before[kShow] + before[kCompare]) / 2;
   click(kPanelX + 18, checkbox_y);
   still("by-hand.png");
-  EXPECT_EQ(different_in(kPicture, "automatic.png", "by-hand.png"), 0);  // it begins with what was shown
+  EXPECT_EQ(different_in(kBesideWidgets, "automatic.png", "by-hand.png"),
+            0);  // it begins with what was shown
   const std::vector<int> after = rows();
   ASSERT_EQ(after.size(), before.size() + 2);
   drag_field(kWidgetX, after[kShow + 2], -100);  // white at
-  const double as_found = mean(kPicture, "by-hand.png")[0], brighter = mean(kPicture, still("white.png"))[0];
+  const double as_found = mean(kBesideWidgets, "by-hand.png")[0],
+               brighter = mean(kBesideWidgets, still("white.png"))[0];
   EXPECT_GT(brighter, as_found + 0.02);
   drag_field(kWidgetX, after[kShow + 1], 100);  // black at
-  EXPECT_LT(mean(kPicture, still("black.png"))[0], brighter - 0.02);
+  EXPECT_LT(mean(kBesideWidgets, still("black.png"))[0], brighter - 0.02);
   click(kPanelX + 18, checkbox_y);
   still("again.png");
-  EXPECT_EQ(different_in(kPicture, "automatic.png", "again.png"), 0);
+  EXPECT_EQ(different_in(kBesideWidgets, "automatic.png", "again.png"), 0);
   EXPECT_EQ(rows().size(), before.size());
   expect_clean_close();
 }
@@ -104,10 +107,10 @@ TEST_F(WidgetsTest, TheRangeOfPositionIsDraggedAxisByAxis) {
   still("by-hand.png");
   const std::vector<int> after = rows();
   ASSERT_EQ(after.size(), before.size() + 2);
-  std::array<double, 3> last = mean(kPicture, "by-hand.png");
+  std::array<double, 3> last = mean(kBesideWidgets, "by-hand.png");
   for (std::size_t axis = 0; axis < 3; ++axis) {
     drag_field(kPanelX + 130 + 84 * static_cast<int>(axis), after[kShow + 2], -80);
-    const std::array<double, 3> now = mean(kPicture, still("dragged.png"));
+    const std::array<double, 3> now = mean(kBesideWidgets, still("dragged.png"));
     for (std::size_t c = 0; c < 3; ++c) {
       if (c == axis)
         EXPECT_GT(now[c], last[c] + 0.01) << axis;
@@ -127,18 +130,19 @@ TEST_F(WidgetsTest, TheToneCurveIsChosen) {
                               kPanelX + 301};  // clip, reinhard, aces, neutral
   click(xs[1], all[kToneCurve]);
   still("reinhard.png");
-  EXPECT_LT(mean(kPicture, "reinhard.png")[0], mean(kPicture, "opened.png")[0] - 0.05);  // all is darker
+  EXPECT_LT(mean(kBesideWidgets, "reinhard.png")[0],
+            mean(kBesideWidgets, "opened.png")[0] - 0.05);  // all is darker
   EXPECT_EQ(option(command_line(), "--tone-map"), "reinhard");
   click(xs[2], all[kToneCurve]);
   still("aces.png");
-  EXPECT_GT(different_in(kPicture, "reinhard.png", "aces.png"), 100000);
-  EXPECT_GT(different_in(kPicture, "opened.png", "aces.png"), 100000);
+  EXPECT_GT(different_in(kBesideWidgets, "reinhard.png", "aces.png"), 100000);
+  EXPECT_GT(different_in(kBesideWidgets, "opened.png", "aces.png"), 100000);
   EXPECT_EQ(option(command_line(), "--tone-map"), "aces");
   click(xs[3], all[kToneCurve]);
   EXPECT_TRUE(becomes([this] { return option(command_line(), "--tone-map") == "neutral"; }));
   click(xs[0], all[kToneCurve]);
   still("clip.png");
-  EXPECT_EQ(different_in(kPicture, "opened.png", "clip.png"), 0);
+  EXPECT_EQ(different_in(kBesideWidgets, "opened.png", "clip.png"), 0);
   EXPECT_EQ(option(command_line(), "--tone-map"), "");
   expect_clean_close();
 }
@@ -175,7 +179,7 @@ TEST_F(WidgetsTest, TheDifferenceHasItsColourScale) {
   EXPECT_TRUE(has_scale(still("difference.png")));
   click(xs[0], all[kCompare]);
   EXPECT_FALSE(has_scale(still("off.png")));
-  EXPECT_EQ(different_in(kPicture, "opened.png", "off.png"), 0);
+  EXPECT_EQ(different_in(kBesideWidgets, "opened.png", "off.png"), 0);
   expect_clean_close();
 }
 

@@ -4,8 +4,6 @@
 namespace pinocchio {
 namespace {
 
-constexpr const char* kStill = "n";  // key: samples are not gathered, so that pictures stand still
-
 TEST_F(WindowTest, ScreenshotIsTheDisplaysAndThePrintedCommandDrawsIt) {
   open(scene("cornell"));
   key(kStill);

@@ -85,7 +85,7 @@ TEST(InputFile, ThatBecomesShorterWhileItIsReadIsAnError) {
   FAIL() << "the file was always read before it became shorter";
 }
 
-FileBytes bytes_of(std::string_view text) {
+FileBytes in_memory(std::string_view text) {
   FileBytes bytes(text.size());
   std::ranges::copy(text, bytes.begin());
   return bytes;
@@ -93,15 +93,15 @@ FileBytes bytes_of(std::string_view text) {
 
 TEST(InputFile, TextBecomesUtf8) {
   using namespace std::string_view_literals;
-  EXPECT_EQ(as_utf8(bytes_of("plain")).text(), "plain");
-  EXPECT_EQ(as_utf8(bytes_of("\xef\xbb\xbfmarked")).text(), "marked");
-  EXPECT_EQ(as_utf8(bytes_of("\xff\xfe\xe4\0b\0"sv)).text(),
+  EXPECT_EQ(as_utf8(in_memory("plain")).text(), "plain");
+  EXPECT_EQ(as_utf8(in_memory("\xef\xbb\xbfmarked")).text(), "marked");
+  EXPECT_EQ(as_utf8(in_memory("\xff\xfe\xe4\0b\0"sv)).text(),
             "\xc3\xa4"
             "b");
-  EXPECT_EQ(as_utf8(bytes_of("\xfe\xff\0\xe4\0b"sv)).text(),
+  EXPECT_EQ(as_utf8(in_memory("\xfe\xff\0\xe4\0b"sv)).text(),
             "\xc3\xa4"
             "b");
-  EXPECT_EQ(as_utf8(bytes_of("\xff\xfe")).text(), "");
+  EXPECT_EQ(as_utf8(in_memory("\xff\xfe")).text(), "");
 }
 
 TEST(Parts, FindTheFirst) {

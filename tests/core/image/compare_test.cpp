@@ -13,12 +13,12 @@ namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr glm::ivec2 kSize{8, 6};
+constexpr glm::ivec2 kComparedSize{8, 6};
 
 ExrFile flat(float value) {
   ExrFile exr;
   exr.display_size = {20, 20};
-  exr.data_window = {{3, 4}, glm::ivec2(3, 4) + kSize};
+  exr.data_window = {{3, 4}, glm::ivec2(3, 4) + kComparedSize};
   for (const char* name : {"B", "G", "R"})
     exr.channels.push_back({name, ExrChannel::Type::half, std::vector<float>(48, value), {}});
   return exr;
@@ -151,7 +151,7 @@ TEST_F(CompareTest, Errors) {
   other.display_size = {21, 20};
   expect_error(other, flat(0.0f), "the picture's size is 21x20, that of b.exr is 20x20");
   other = flat(0.0f);
-  other.data_window = {{4, 4}, glm::ivec2(4, 4) + kSize};
+  other.data_window = {{4, 4}, glm::ivec2(4, 4) + kComparedSize};
   expect_error(other, flat(0.0f), "the data window is 8x6 at (4, 4), that of b.exr is 8x6 at (3, 4)");
   other = flat(0.0f);
   other.channels.erase(other.channels.begin());

@@ -21,7 +21,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSize{40, 30};
+constexpr glm::ivec2 kPartSize{40, 30};
 constexpr PixelBox kPart{{8, 4}, {33, 21}};
 
 std::filesystem::path temporary(const std::string& name) {
@@ -33,13 +33,13 @@ ExrFile small_frame(const Scene& scene, const AovSet& aovs) {
   const Tracer tracer(scene.mesh);
   Workers workers(1);
   const TraceJob job{scene, tracer, workers,
-                     view_params(scene.cameras.front(), kSize, glm::vec2(0.0f), kPart.lo)};
+                     view_params(scene.cameras.front(), kPartSize, glm::vec2(0.0f), kPart.lo)};
   LayerImages images{.ids = Image<std::uint32_t>(kPart.size())};
   trace_visibility(job, images.ids);
   trace_shadow_mask(job, images.ids, 2, images.mask);
   shade(job, images.ids, images.mask, images.reflection, images.color);
   images.surfaces = surface_images(*scene.mesh, job.view, images.ids, 0, kPart.size().y);
-  return frame_exr({.size = kSize,
+  return frame_exr({.size = kPartSize,
                     .part = kPart,
                     .scene = scene,
                     .camera = scene.cameras.front(),
@@ -76,7 +76,7 @@ TEST(Exr, ChannelsAndAttributesComeBack) {
   write_exr(temporary("frame.exr"), written);
   const Expected<ExrFile> read = read_exr(temporary("frame.exr"));
   ASSERT_TRUE(read);
-  EXPECT_EQ(read->display_size, kSize);
+  EXPECT_EQ(read->display_size, kPartSize);
   EXPECT_EQ(read->data_window, kPart);
   EXPECT_EQ(read->channels.size(), 19u);
   for (const ExrChannel& channel : written.channels) {
@@ -91,7 +91,7 @@ TEST(Exr, ChannelsAndAttributesComeBack) {
   EXPECT_EQ(std::get<std::string>(read->attributes.at("pinocchio.plan")), "{\"p\":1}");
   EXPECT_EQ(std::get<float>(read->attributes.at("renderTimeSeconds")), 1.5f);
   EXPECT_EQ(std::get<glm::mat4>(read->attributes.at("worldToNDC")),
-            world_to_ndc(scene.cameras.front(), kSize));
+            world_to_ndc(scene.cameras.front(), kPartSize));
   EXPECT_NE(std::get<std::string>(read->attributes.at("pinocchio.lights")).find("\"left\""),
             std::string::npos);
 }
@@ -110,7 +110,7 @@ TEST(Exr, PositionsDistancesAndMatricesAgree) {
   const Scene scene = lit_scene();
   const ExrFile exr = small_frame(scene, *parse_aovs("all"));
   const glm::mat4 to_camera = world_to_camera(scene.cameras.front()),
-                  to_ndc = world_to_ndc(scene.cameras.front(), kSize);
+                  to_ndc = world_to_ndc(scene.cameras.front(), kPartSize);
   for (int y = 0; y < kPart.size().y; ++y)
     for (int x = 0; x < kPart.size().x; ++x) {
       const auto i = static_cast<std::size_t>(y * kPart.size().x + x);
@@ -119,8 +119,8 @@ TEST(Exr, PositionsDistancesAndMatricesAgree) {
                         1.0f);
       EXPECT_NEAR((to_camera * p).z, exr.find("Z")->values[i], 1e-4f);  // left-handed: in front is positive
       const glm::vec4 ndc = to_ndc * p;
-      EXPECT_NEAR(ndc.x / ndc.w * kSize.x, static_cast<float>(kPart.lo.x + x) + 0.5f, 1e-3f);
-      EXPECT_NEAR(ndc.y / ndc.w * kSize.y, static_cast<float>(kPart.lo.y + y) + 0.5f, 1e-3f);
+      EXPECT_NEAR(ndc.x / ndc.w * kPartSize.x, static_cast<float>(kPart.lo.x + x) + 0.5f, 1e-3f);
+      EXPECT_NEAR(ndc.y / ndc.w * kPartSize.y, static_cast<float>(kPart.lo.y + y) + 0.5f, 1e-3f);
     }
 }
 

@@ -15,7 +15,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSize{4, 3};
+constexpr glm::ivec2 kFrameSize{4, 3};
 constexpr std::size_t kPixels = 12;
 
 // A camera that no axis of the world lines up with.
@@ -29,7 +29,7 @@ Camera slanted_camera() {
 
 // x and y across the picture.
 glm::vec2 ndc_of(const Camera& camera, const glm::vec3& p_world) {
-  const glm::vec4 p = world_to_ndc(camera, kSize) * glm::vec4(p_world, 1.0f);
+  const glm::vec4 p = world_to_ndc(camera, kFrameSize) * glm::vec4(p_world, 1.0f);
   return glm::vec2(p) / p.w;
 }
 
@@ -41,11 +41,11 @@ void expect_near(const glm::vec2& a, const glm::vec2& b) {
 // Where the ray of a pixel's centre says: also of a camera whose axis is off the centre, its pixels not
 // square.
 TEST(FrameExr, NdcOfAMeasuredCameraIsItsPixels) {
-  const Camera camera = with_intrinsics(slanted_camera(), {3.0, 3.5, 1.25, 0.5}, kSize);
-  const shared::ViewParams view = view_params(camera, kSize);
+  const Camera camera = with_intrinsics(slanted_camera(), {3.0, 3.5, 1.25, 0.5}, kFrameSize);
+  const shared::ViewParams view = view_params(camera, kFrameSize);
   for (const glm::ivec2 pixel : {glm::ivec2(0, 0), glm::ivec2(3, 2), glm::ivec2(1, 2)}) {
     const glm::vec3 point = view.eye + 2.5f * pixel_ray(view, pixel.x, pixel.y).direction;
-    expect_near(ndc_of(camera, point), (glm::vec2(pixel) + 0.5f) / glm::vec2(kSize));
+    expect_near(ndc_of(camera, point), (glm::vec2(pixel) + 0.5f) / glm::vec2(kFrameSize));
   }
 }
 
@@ -54,12 +54,13 @@ struct HandMade {
   Scene scene;
   Camera camera = slanted_camera();
   LayerImages images{
-      .color = Image<glm::vec4>(kSize, glm::vec4(0.25f, 0.5f, 2.0f, 1.0f)),
-      .ids = Image<std::uint32_t>(kSize),
-      .mask = MaskImage(kSize, 2),
+      .color = Image<glm::vec4>(kFrameSize, glm::vec4(0.25f, 0.5f, 2.0f, 1.0f)),
+      .ids = Image<std::uint32_t>(kFrameSize),
+      .mask = MaskImage(kFrameSize, 2),
       .reflection = {},
-      .surfaces = {Image<float>(kSize, 1.0f), Image<glm::vec3>(kSize, glm::vec3(1, 2, 3)),
-                   Image<glm::vec3>(kSize, glm::vec3(0, 1, 0)), Image<glm::vec3>(kSize, glm::vec3(0.5f))}};
+      .surfaces = {Image<float>(kFrameSize, 1.0f), Image<glm::vec3>(kFrameSize, glm::vec3(1, 2, 3)),
+                   Image<glm::vec3>(kFrameSize, glm::vec3(0, 1, 0)),
+                   Image<glm::vec3>(kFrameSize, glm::vec3(0.5f))}};
 
   HandMade() {
     for (std::size_t i = 0; i < images.ids.pixels().size(); ++i)
@@ -74,14 +75,14 @@ struct HandMade {
   }
   [[nodiscard]] ExrFile exr(const AovSet& aovs, std::optional<double> render_s,
                             std::function<void(int, int, const FrameArrays&)> write_lines) const {
-    return frame_exr({.size = kSize,
-                      .part = {{0, 0}, kSize},
+    return frame_exr({.size = kFrameSize,
+                      .part = {{0, 0}, kFrameSize},
                       .scene = scene,
                       .camera = camera,
                       .write_lines = std::move(write_lines),
                       .plan_json = "{}",
                       .render_s = render_s},
-                     aovs, 0, kSize.y);
+                     aovs, 0, kFrameSize.y);
   }
 };
 
@@ -192,7 +193,7 @@ TEST(FrameExr, HasAMaskChannelForEach32CastingLights) {
     HandMade made;
     made.scene.lights.resize(static_cast<std::size_t>(lights));
     made.scene.lights.emplace_back().casts_shadow = false;
-    made.images.mask = MaskImage(kSize, MaskImage::bits_for(lights));
+    made.images.mask = MaskImage(kFrameSize, MaskImage::bits_for(lights));
     made.images.mask.set_bit(2, 1, lights - 1);
     made.images.mask.set_bit(2, 1, 1);
     const ExrFile exr = made.exr({});
@@ -237,8 +238,8 @@ TEST(FrameExr, NdcRunsFromTheTopLeftCornerToTheBottomRight) {
   const CameraAxes axes = camera_axes(camera);
   const float half_height = std::tan(glm::radians(camera.fov_deg) * 0.5f);
   const glm::vec3 up = axes.up * half_height,
-                  right =
-                      axes.right * (half_height * static_cast<float>(kSize.x) / static_cast<float>(kSize.y));
+                  right = axes.right *
+                          (half_height * static_cast<float>(kFrameSize.x) / static_cast<float>(kFrameSize.y));
   for (const float z_eye : {0.5f, 1.0f, 40.0f}) {
     const auto ndc = [&](const glm::vec3& direction) {
       return ndc_of(camera, camera.eye + z_eye * direction);
@@ -252,12 +253,12 @@ TEST(FrameExr, NdcRunsFromTheTopLeftCornerToTheBottomRight) {
 
 TEST(FrameExr, NdcAgreesWithThePixelsRays) {
   const Camera camera = slanted_camera();
-  const shared::ViewParams view = view_params(camera, kSize);
-  for (int y = 0; y < kSize.y; ++y)
-    for (int x = 0; x < kSize.x; ++x) {
+  const shared::ViewParams view = view_params(camera, kFrameSize);
+  for (int y = 0; y < kFrameSize.y; ++y)
+    for (int x = 0; x < kFrameSize.x; ++x) {
       const glm::vec2 pixel(static_cast<float>(x), static_cast<float>(y));
       const glm::vec3 p_world = view.eye + 7.0f * shared::pixel_direction(view, pixel);
-      expect_near(ndc_of(camera, p_world), (pixel + 0.5f) / glm::vec2(kSize));
+      expect_near(ndc_of(camera, p_world), (pixel + 0.5f) / glm::vec2(kFrameSize));
     }
 }
 

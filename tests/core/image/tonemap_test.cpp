@@ -65,11 +65,11 @@ TEST(Tonemap, BytesChangeWhereLibmsDo) {
 }
 
 TEST(Tonemap, ClampsWhatNoScreenShows) {
-  constexpr float kInf = std::numeric_limits<float>::infinity();
+  constexpr float kInfinite = std::numeric_limits<float>::infinity();
   EXPECT_EQ(linear_to_srgb8(-1.0f), 0);
-  EXPECT_EQ(linear_to_srgb8(-kInf), 0);
+  EXPECT_EQ(linear_to_srgb8(-kInfinite), 0);
   EXPECT_EQ(linear_to_srgb8(7.0f), 255);
-  EXPECT_EQ(linear_to_srgb8(kInf), 255);
+  EXPECT_EQ(linear_to_srgb8(kInfinite), 255);
   EXPECT_EQ(linear_to_srgb8(std::nanf("")), 0);
 }
 

@@ -45,13 +45,13 @@ std::string jpeg_of(const Texture& texture, int subsampling) {
   return jpeg;
 }
 
-std::span<const unsigned char> bytes_of(const std::string& text) {
+std::span<const unsigned char> image_bytes(const std::string& text) {
   return {reinterpret_cast<const unsigned char*>(text.data()), text.size()};
 }
 
 Expected<DecodedImage> decode(const std::string& bytes, std::uint64_t most_bytes = 1 << 20) {
   MemoryLimit limit(most_bytes);
-  return decode_texture({"scene.glb", "picture", bytes_of(bytes), limit});
+  return decode_texture({"scene.glb", "picture", image_bytes(bytes), limit});
 }
 
 int largest_difference(const Texture& a, const Texture& b) {

@@ -14,7 +14,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSize{75, 45};  // tiles that are cut off on both sides
+constexpr glm::ivec2 kLayerSize{75, 45};  // tiles that are cut off on both sides
 
 template <class T>
 bool same_bits(const Image<T>& a, const Image<T>& b) {
@@ -22,14 +22,14 @@ bool same_bits(const Image<T>& a, const Image<T>& b) {
 }
 
 struct Points {
-  Image<float> depth{kSize, kInfinity};
-  Image<glm::vec3> position{kSize}, normal{kSize}, albedo{kSize};
+  Image<float> depth{kLayerSize, kInfinity};
+  Image<glm::vec3> position{kLayerSize}, normal{kLayerSize}, albedo{kLayerSize};
 };
 
 Points one_by_one(const Scene& scene, const shared::ViewParams& view, const Image<std::uint32_t>& ids) {
   Points points;
-  for (int y = 0; y < kSize.y; ++y)
-    for (int x = 0; x < kSize.x; ++x) {
+  for (int y = 0; y < kLayerSize.y; ++y)
+    for (int x = 0; x < kLayerSize.x; ++x) {
       if (ids.at(x, y) == kNoTriangle) continue;
       const Ray ray = pixel_ray(view, x, y);
       const SurfaceInteraction s =
@@ -50,11 +50,11 @@ Points in_lanes(const VisibleScene& of, const Image<std::uint32_t>& ids) {
   to.position = points.position.pixels().data();
   to.normal = points.normal.pixels().data();
   to.albedo = points.albedo.pixels().data();
-  const TileGrid grid(kSize);
+  const TileGrid grid(kLayerSize);
   for (std::size_t i = 0; i < grid.count(); ++i) {
     const PixelBox tile = grid.tile(i);
-    write_visible_points(of, tile, &ids.at(tile.lo.x, tile.lo.y), kSize.x, to,
-                         ids.index(tile.lo.x, tile.lo.y), kSize.x);
+    write_visible_points(of, tile, &ids.at(tile.lo.x, tile.lo.y), kLayerSize.x, to,
+                         ids.index(tile.lo.x, tile.lo.y), kLayerSize.x);
   }
   return points;
 }
@@ -64,8 +64,8 @@ TEST(VisiblePoints, AreTheSurfacesToTheBitAtEveryWidth) {
     const Scene scene = load_or_die(source_path(name));
     const Tracer tracer(scene.mesh);
     Workers workers(1);
-    const shared::ViewParams view = view_params(scene.cameras.front(), kSize);
-    Image<std::uint32_t> ids(kSize);
+    const shared::ViewParams view = view_params(scene.cameras.front(), kLayerSize);
+    Image<std::uint32_t> ids(kLayerSize);
     trace_visibility({scene, tracer, workers, view}, ids);
     const LaneMapsOf maps(*scene.mesh);
     const SceneArrays arrays = SceneArrays::of(*scene.mesh, maps);
@@ -84,15 +84,15 @@ TEST(VisiblePoints, AreTheSurfacesToTheBitAtEveryWidth) {
 // Arrays that are not wanted are not written; the others are written in the tile only.
 TEST(VisiblePoints, WritesWhatIsWantedAlone) {
   const Scene scene = load_or_die(source_path("scenes/two-lights.gltf"));
-  const Image<std::uint32_t> ids(kSize, 0u);
+  const Image<std::uint32_t> ids(kLayerSize, 0u);
   std::vector<float> depth(3 * 10, -1.0f);
   FrameArrays to;
   to.depth = depth.data();
-  const shared::ViewParams view = view_params(scene.cameras.front(), kSize);
+  const shared::ViewParams view = view_params(scene.cameras.front(), kLayerSize);
   const LaneMapsOf maps(*scene.mesh);
   const SceneArrays arrays = SceneArrays::of(*scene.mesh, maps);
-  write_visible_points({arrays, lane_steps(default_isa()), view}, {{4, 4}, {7, 6}}, &ids.at(4, 4), kSize.x,
-                       to, 2, 10);
+  write_visible_points({arrays, lane_steps(default_isa()), view}, {{4, 4}, {7, 6}}, &ids.at(4, 4),
+                       kLayerSize.x, to, 2, 10);
   for (std::size_t i = 0; i < depth.size(); ++i)
     EXPECT_EQ(depth[i] == -1.0f, i / 10 > 1 || i % 10 < 2 || i % 10 > 4) << i;
 }

@@ -12,7 +12,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSize{160, 120};
+constexpr glm::ivec2 kCameraSize{160, 120};
 
 Camera camera_with(Projection projection, const std::vector<float>& distortion = {}) {
   Camera camera{"c", {1, 2, 3}, {2, 1.5f, -4}, {0.1f, 1, 0}, 60.0f};
@@ -23,7 +23,7 @@ Camera camera_with(Projection projection, const std::vector<float>& distortion =
     camera = with_intrinsics(camera,
                              projection == Projection::fisheye ? Intrinsics{42.0, 40.0, 77.25, 61.5}
                                                                : Intrinsics{110.0, 104.0, 77.25, 61.5},
-                             kSize);
+                             kCameraSize);
   for (std::size_t i = 0; i < distortion.size(); ++i) camera.distortion[i] = distortion[i];
   return camera;
 }
@@ -67,13 +67,13 @@ TEST(Cameras, PointsAreWhereOpenCvSeesThem) {
        {glm::dvec3(0.3, -0.2, 1.0), glm::dvec3(-0.5, 0.4, 2.0), glm::dvec3(0.02, 0.01, 5.0)}) {
     for (const auto& lens : kLenses) {
       const Camera camera = camera_with(Projection::perspective, lens);
-      const auto seen = pixel_of(camera, kSize, to_world(camera, p));
+      const auto seen = pixel_of(camera, kCameraSize, to_world(camera, p));
       ASSERT_TRUE(seen);
       EXPECT_NEAR(glm::distance(*seen, opencv_projection(camera, p)), 0.0, 2e-4);
     }
     for (const auto& lens : kFisheyes) {
       const Camera camera = camera_with(Projection::fisheye, lens);
-      const auto seen = pixel_of(camera, kSize, to_world(camera, p));
+      const auto seen = pixel_of(camera, kCameraSize, to_world(camera, p));
       ASSERT_TRUE(seen);
       EXPECT_NEAR(glm::distance(*seen, opencv_fisheye(camera, p)), 0.0, 2e-4);
     }
@@ -85,13 +85,14 @@ TEST(Cameras, RaysComeFromWherePointsAreSeen) {
   for (const auto& lens : kLenses) cameras.push_back(camera_with(Projection::perspective, lens));
   for (const auto& lens : kFisheyes) cameras.push_back(camera_with(Projection::fisheye, lens));
   for (const Camera& camera : cameras) {
-    const Image<Ray> rays = camera_rays({.camera = camera, .size = kSize});
+    const Image<Ray> rays = camera_rays({.camera = camera, .size = kCameraSize});
     int seen = 0;
-    for (int y = 0; y < kSize.y; y += 7)
-      for (int x = 0; x < kSize.x; x += 7) {
+    for (int y = 0; y < kCameraSize.y; y += 7)
+      for (int x = 0; x < kCameraSize.x; x += 7) {
         const Ray& ray = rays.at(x, y);
         if (ray.direction == glm::vec3(0.0f)) continue;
-        const auto pixel = pixel_of(camera, kSize, glm::dvec3(ray.origin) + 3.0 * glm::dvec3(ray.direction));
+        const auto pixel =
+            pixel_of(camera, kCameraSize, glm::dvec3(ray.origin) + 3.0 * glm::dvec3(ray.direction));
         ASSERT_TRUE(pixel) << x << ", " << y;
         EXPECT_NEAR(pixel->x, x, 1e-3);
         EXPECT_NEAR(pixel->y, y, 1e-3);
@@ -104,14 +105,15 @@ TEST(Cameras, RaysComeFromWherePointsAreSeen) {
 TEST(Cameras, PartsAndJitterAreTheWholePicturesRays) {
   for (const Projection projection : {Projection::orthographic, Projection::panorama, Projection::fisheye}) {
     const Camera camera = camera_with(projection);
-    const Image<Ray> whole = camera_rays({.camera = camera, .size = kSize});
-    const Image<Ray> part = camera_rays({.camera = camera, .size = kSize, .part = {{30, 17}, {60, 40}}});
+    const Image<Ray> whole = camera_rays({.camera = camera, .size = kCameraSize});
+    const Image<Ray> part =
+        camera_rays({.camera = camera, .size = kCameraSize, .part = {{30, 17}, {60, 40}}});
     for (int y = 0; y < part.height(); ++y)
       for (int x = 0; x < part.width(); ++x) {
         EXPECT_EQ(part.at(x, y).origin, whole.at(30 + x, 17 + y).origin);
         EXPECT_EQ(part.at(x, y).direction, whole.at(30 + x, 17 + y).direction);
       }
-    const Image<Ray> beside = camera_rays({.camera = camera, .size = kSize, .jitter = {1.0f, 0.0f}});
+    const Image<Ray> beside = camera_rays({.camera = camera, .size = kCameraSize, .jitter = {1.0f, 0.0f}});
     const Ray &a = beside.at(50, 50), &b = whole.at(51, 50);
     EXPECT_LT(glm::distance(a.origin, b.origin) + glm::distance(a.direction, b.direction), 2e-6f);
   }
@@ -119,7 +121,7 @@ TEST(Cameras, PartsAndJitterAreTheWholePicturesRays) {
 
 TEST(Cameras, OrthographicRaysAreParallelAndAHeightApart) {
   const Camera camera = camera_with(Projection::orthographic);
-  const Image<Ray> rays = camera_rays({.camera = camera, .size = kSize});
+  const Image<Ray> rays = camera_rays({.camera = camera, .size = kCameraSize});
   const Ray &top = rays.at(80, 0), &bottom = rays.at(80, 119);
   EXPECT_EQ(top.direction, bottom.direction);
   EXPECT_NEAR(glm::length(top.direction), 1.0f, 1e-6f);
@@ -146,10 +148,10 @@ TEST(Cameras, PanoramasSeeAllAround) {
 TEST(Cameras, WhatALensDoesNotShowHasNoRay) {
   // Its radius falls again from 1.29 on.
   const Camera folded = camera_with(Projection::perspective, {-0.2f});
-  EXPECT_FALSE(pixel_of(folded, kSize, to_world(folded, {1.6, 0.0, 1.0})));
-  EXPECT_TRUE(pixel_of(folded, kSize, to_world(folded, {1.0, 0.0, 1.0})));
+  EXPECT_FALSE(pixel_of(folded, kCameraSize, to_world(folded, {1.6, 0.0, 1.0})));
+  EXPECT_TRUE(pixel_of(folded, kCameraSize, to_world(folded, {1.0, 0.0, 1.0})));
   EXPECT_FALSE(undistorted(folded.distortion, {2.0, 0.0}));
-  EXPECT_FALSE(pixel_of(folded, kSize, to_world(folded, {0.0, 0.0, -1.0})));
+  EXPECT_FALSE(pixel_of(folded, kCameraSize, to_world(folded, {0.0, 0.0, -1.0})));
   // Pixels beyond 180 degrees from a fisheye's axis.
   Camera fisheye;
   fisheye.projection = Projection::fisheye;

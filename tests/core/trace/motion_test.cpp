@@ -18,7 +18,7 @@ namespace {
 constexpr float kAxes[4] = {-1.0f, -0.0f, 0.0f, 1.0f};
 
 // From all sides, along axes, and from and to points of the mesh: vertices, edges, and inside triangles.
-std::vector<Ray> rays_at(const Mesh& mesh, int count, std::uint64_t seed) {
+std::vector<Ray> rays_about(const Mesh& mesh, int count, std::uint64_t seed) {
   Random random(seed);
   const glm::vec3 center = mesh.bounds().center();
   const float reach = 0.5f * mesh.bounds().diagonal();
@@ -69,7 +69,7 @@ std::vector<Ray> agreed(const Mesh& mesh, const std::vector<Ray>& rays, Triangle
   return same;
 }
 
-void expect_same_hits(const Tracer& kept, const Tracer& whole, const std::vector<Ray>& rays,
+void expect_kept_hits(const Tracer& kept, const Tracer& whole, const std::vector<Ray>& rays,
                       const std::string& where) {
   std::vector<Hit> found(rays.size()), expected(rays.size());
   for (const Backfaces backfaces : {Backfaces::draw, Backfaces::cull}) {
@@ -98,7 +98,7 @@ class Chains {
 
   // `seed`: of the rays.
   void check(const Scene& scene, int rays, std::uint64_t seed, const std::string& where) {
-    const std::vector<Ray> all = rays_at(*scene.mesh, rays, seed);
+    const std::vector<Ray> all = rays_about(*scene.mesh, rays, seed);
     std::vector<std::vector<Ray>> of_test;
     for (const TriangleTest test : kTriangleTests) of_test.push_back(agreed(*scene.mesh, all, test));
     for (Chain& chain : chains_) {
@@ -106,7 +106,7 @@ class Chains {
       auto now =
           std::make_shared<const Tracer>(scene, options, chain.isa, OffsetMethod::scaled, chain.before.get());
       const Tracer whole(scene.mesh, options, chain.isa, OffsetMethod::scaled);
-      expect_same_hits(*now, whole, of_test[static_cast<std::size_t>(chain.test)],
+      expect_kept_hits(*now, whole, of_test[static_cast<std::size_t>(chain.test)],
                        where + ", " + std::string(isa_name(chain.isa)) + ", " +
                            std::string(triangle_test_name(chain.test)));
       EXPECT_EQ(now->trees().bounds.lo, whole.trees().bounds.lo) << where;

@@ -10,11 +10,11 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSize{120, 90};
+constexpr glm::ivec2 kPassSize{120, 90};
 
 // All passes of one picture on the CPU.
 struct Drawn {
-  Image<std::uint32_t> ids{kSize};
+  Image<std::uint32_t> ids{kPassSize};
   MaskImage mask;
   Image<glm::vec3> reflection;
   Image<glm::vec4> color;
@@ -24,7 +24,7 @@ struct Drawn {
 Drawn draw(const Scene& scene, int threads = 2, std::optional<Isa> isa = {}, int depth = 8) {
   const Tracer tracer(scene.mesh, {}, isa);
   Workers workers(threads);
-  const TraceJob job{scene, tracer, workers, view_params(scene.cameras.front(), kSize)};
+  const TraceJob job{scene, tracer, workers, view_params(scene.cameras.front(), kPassSize)};
   Drawn drawn;
   drawn.rays += trace_visibility(job, drawn.ids);
   const int casting = static_cast<int>(casting_lights(scene).size());
@@ -47,9 +47,9 @@ unsigned mask_at(const Drawn& drawn, const Scene& scene, const glm::vec3& p_worl
   const glm::vec3 q = p_world - scene.cameras.front().eye;
   const float z = glm::dot(q, axes.forward);
   const float half = std::tan(glm::radians(0.5f * scene.cameras.front().fov_deg));
-  const float scale = 0.5f * static_cast<float>(kSize.y) / half;
-  const int x = static_cast<int>(0.5f * kSize.x + scale * glm::dot(q, axes.right) / z);
-  const int y = static_cast<int>(0.5f * kSize.y - scale * glm::dot(q, axes.up) / z);
+  const float scale = 0.5f * static_cast<float>(kPassSize.y) / half;
+  const int x = static_cast<int>(0.5f * kPassSize.x + scale * glm::dot(q, axes.right) / z);
+  const int y = static_cast<int>(0.5f * kPassSize.y - scale * glm::dot(q, axes.up) / z);
   return drawn.mask.get(x, y, first);
 }
 
@@ -253,7 +253,7 @@ TEST(Reflection, DepthLimitsTheGenerations) {
   mesh.materials[0].reflectance = glm::vec3(1.0f);
   Scene scene(std::move(mesh));
   scene.cameras = {{"between", {0, 5, 0}, {0, 0, -0.01f}, {0, 1, 0}, 20.0f}};
-  const std::uint64_t pixels = static_cast<std::uint64_t>(kSize.x) * kSize.y;
+  const std::uint64_t pixels = static_cast<std::uint64_t>(kPassSize.x) * kPassSize.y;
   for (const int depth : {0, 1, 3})
     EXPECT_EQ(draw(scene, 2, {}, depth).rays.reflection, pixels * static_cast<std::uint64_t>(depth));
 }

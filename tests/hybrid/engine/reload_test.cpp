@@ -9,7 +9,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSize{64, 48};
+constexpr glm::ivec2 kReloadSize{64, 48};
 
 class ReloadTest : public FramesTest {
  protected:
@@ -21,7 +21,7 @@ class ReloadTest : public FramesTest {
     renderer_.emplace(*engine_, FrameSinks{[this](Frame& frame) { frame.read_color(picture_); }, {}});
     Scene scene = plate_over_floor();
     scene.lights = {point_light({1, 5, 1})};
-    request_ = request(scene, settings_for(scene), kSize);
+    request_ = request(scene, settings_for(scene), kReloadSize);
   }
   void TearDown() override {
     renderer_.reset();
@@ -113,7 +113,7 @@ TEST_P(ReloadTest, AShaderThatIsBrokenFromTheStartCanBeMended) {
   EXPECT_THROW(picture(), gl::Error);
   write("composite.frag", old);
   EXPECT_TRUE(programs()->reload());
-  EXPECT_EQ(picture().size(), kSize);
+  EXPECT_EQ(picture().size(), kReloadSize);
 }
 
 }  // namespace
