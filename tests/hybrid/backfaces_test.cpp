@@ -8,7 +8,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kBackSize{160, 120};
+constexpr glm::ivec2 kBackfaceSize{160, 120};
 constexpr std::uint32_t kWall = 0, kThing = 1;  // materials
 
 using Shades = std::optional<bool>;  // Material::double_sided
@@ -62,19 +62,19 @@ Scene room(Shades wall, Shades thing = {}) {
 }
 
 FrameResult draw(const Scene& scene, Backfaces backfaces, const Settings& way = by({{"mode", "raytrace"}})) {
-  DrawRequest request{.settings = way, .size = kBackSize};
+  DrawRequest request{.settings = way, .size = kBackfaceSize};
   request.settings.backfaces = backfaces;
   return draw_one(scene, request);
 }
 
 ReferencePicture precise(const Scene& scene, Backfaces backfaces, int depth = 8) {
   Workers workers(2);
-  return reference_render(scene, {first_camera(scene), kBackSize}, depth, workers, nullptr,
+  return reference_render(scene, {first_camera(scene), kBackfaceSize}, depth, workers, nullptr,
                           {.backfaces = backfaces});
 }
 
-std::uint32_t material_seen(const Scene& scene, const Image<std::uint32_t>& ids, int x = kBackSize.x / 2,
-                            int y = kBackSize.y / 2) {
+std::uint32_t material_seen(const Scene& scene, const Image<std::uint32_t>& ids, int x = kBackfaceSize.x / 2,
+                            int y = kBackfaceSize.y / 2) {
   const std::uint32_t id = ids.at(x, y);
   return id == kNoTriangle ? kNoTriangle : scene.mesh->triangle_materials[id];
 }
@@ -183,12 +183,12 @@ TEST(Backfaces, PassedWallsCastShadows) {
   const Scene scene = room(false, false);
   for (const Way& way : all_ways()) {
     if (way.settings.mask_bits.given && way.settings.mask_bits == 0) continue;  // raster
-    DrawRequest request{.settings = way.settings, .size = kBackSize};
+    DrawRequest request{.settings = way.settings, .size = kBackfaceSize};
     request.settings.light_cutoff = 0.0f;
     const FrameResult drawn = draw_one(scene, request);
     std::size_t by_inner = 0;
-    for (int y = 0; y < kBackSize.y; ++y)
-      for (int x = 0; x < kBackSize.x; ++x) {
+    for (int y = 0; y < kBackfaceSize.y; ++y)
+      for (int x = 0; x < kBackfaceSize.x; ++x) {
         by_inner += drawn.mask.get(x, y) & 1u;
         ASSERT_EQ(drawn.mask.get(x, y) & 2u, 0u) << way.name << ", " << x << ", " << y;
       }

@@ -9,7 +9,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kBeyondSize{96, 72};
+constexpr glm::ivec2 kMirrorSize{96, 72};
 constexpr std::uint32_t kWallTriangles = 2;  // the first ones
 
 // A wall, at z = 0, that shows what is before it, or behind it, and nothing of its own: matt squares of two
@@ -50,7 +50,7 @@ FrameResult picture(const Scene& scene, int spp, bool denoise, int seed = 0) {
   settings.spp = spp;
   settings.denoise = denoise;
   settings.seed = seed;
-  return draw_one(scene, {.settings = settings, .size = kBeyondSize});
+  return draw_one(scene, {.settings = settings, .size = kMirrorSize});
 }
 
 // One sample at each pixel's centre, without its noise.
@@ -72,8 +72,8 @@ struct Distance {
 Distance distance_in_wall(const FrameResult& a, const FrameResult& b) {
   Distance distance;
   double count = 0.0;
-  for (int y = 1; y + 1 < kBeyondSize.y; ++y)
-    for (int x = 1; x + 1 < kBeyondSize.x; ++x) {
+  for (int y = 1; y + 1 < kMirrorSize.y; ++y)
+    for (int x = 1; x + 1 < kMirrorSize.x; ++x) {
       bool inside = true;
       for (int k = 0; k < 9; ++k) inside = inside && a.ids.at(x + k % 3 - 1, y + k / 3 - 1) < kWallTriangles;
       if (!inside) continue;
@@ -134,11 +134,11 @@ TEST(DenoisedMirror, TheSameBitsOnAllProcessorsAndThreads) {
   settings.denoise = true;
   settings.threads = 1;
   settings.isa = Isa::scalar;
-  const FrameResult expected = draw_one(scene, {.settings = settings, .size = kBeyondSize});
+  const FrameResult expected = draw_one(scene, {.settings = settings, .size = kMirrorSize});
   settings.threads = 3;
   for (const Isa isa : supported_isas()) {
     settings.isa = isa;
-    const FrameResult frame = draw_one(scene, {.settings = settings, .size = kBeyondSize});
+    const FrameResult frame = draw_one(scene, {.settings = settings, .size = kMirrorSize});
     EXPECT_EQ(std::memcmp(frame.color.pixels().data(), expected.color.pixels().data(),
                           expected.color.pixels().size_bytes()),
               0)

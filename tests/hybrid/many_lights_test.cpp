@@ -18,7 +18,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kManySize{100, 75};  // no whole number of tiles
+constexpr glm::ivec2 kLightsSize{100, 75};  // no whole number of tiles
 
 void add_box(MeshData& mesh, const glm::vec3& lo, const glm::vec3& hi, std::uint32_t material) {
   const auto quad = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d) {
@@ -108,7 +108,7 @@ Settings settings_of(const Way& way) {
   return settings;
 }
 
-ReferencePicture truth_of(const Scene& scene, glm::ivec2 size = kManySize) {
+ReferencePicture truth_of(const Scene& scene, glm::ivec2 size = kLightsSize) {
   Workers workers(2);
   return reference_render(scene, {.camera = first_camera(scene), .size = size}, 8, workers);
 }
@@ -120,8 +120,8 @@ struct Apart {
 
 Apart apart(const FrameResult& ours, const ReferencePicture& truth, int slots) {
   Apart a;
-  for (int y = 0; y < kManySize.y; ++y)
-    for (int x = 0; x < kManySize.x; ++x) {
+  for (int y = 0; y < kLightsSize.y; ++y)
+    for (int x = 0; x < kLightsSize.x; ++x) {
       if (ours.ids.at(x, y) != truth.ids.at(x, y)) continue;
       ++a.pixels;
       for (int first = 0; first < slots; first += 32)
@@ -138,7 +138,7 @@ void expect_near(const FrameResult& ours, const ReferencePicture& truth, int slo
   const Apart a = apart(ours, truth, slots);
   std::printf("  %s: %g bits of %g other, mean difference %.2g\n", what.c_str(), a.bits, slots * a.pixels,
               a.mean);
-  EXPECT_GT(a.pixels, 0.99 * kManySize.x * kManySize.y) << what;
+  EXPECT_GT(a.pixels, 0.99 * kLightsSize.x * kLightsSize.y) << what;
   EXPECT_LT(a.bits, 0.001 * slots * a.pixels) << what;
   EXPECT_LT(a.mean, 0.5 / 255.0) << what;
 }
@@ -157,7 +157,7 @@ TEST_P(ManyLights, CastTheReferencesShadowsInEverySchedule) {
       if (broken_rule(settings)) continue;
       const Camera camera = first_camera(scene);
       const std::vector<FrameResult> frames =
-          draw_all(scene, {.settings = settings, .size = kManySize}, {camera, camera, camera, camera});
+          draw_all(scene, {.settings = settings, .size = kLightsSize}, {camera, camera, camera, camera});
       expect_near(
           frames.back(), truth, GetParam(),
           std::string(way.name) + ", " + std::string(kExchangeNames[static_cast<std::size_t>(exchange)]));
@@ -169,13 +169,13 @@ TEST_P(ManyLights, AreMirrored) {
   const Scene scene = pillars({.casting = GetParam(), .mirror = true});
   const ReferencePicture truth = truth_of(scene);
   for (const Way& way : kWays)
-    expect_near(draw_one(scene, {.settings = settings_of(way), .size = kManySize}), truth, GetParam(),
+    expect_near(draw_one(scene, {.settings = settings_of(way), .size = kLightsSize}), truth, GetParam(),
                 way.name);
   Settings coarse;
   coarse.mask_scale = 2;
   for (const int reflection_scale : {1, 2}) {
     coarse.reflection_scale = reflection_scale;
-    const FrameResult drawn = draw_one(scene, {.settings = coarse, .size = kManySize});
+    const FrameResult drawn = draw_one(scene, {.settings = coarse, .size = kLightsSize});
     const Apart a = apart(drawn, truth, GetParam());
     EXPECT_LT(a.bits, 0.1 * GetParam() * a.pixels);
     EXPECT_LT(a.mean, 4.0 / 255.0);
@@ -188,11 +188,11 @@ TEST_P(ManyLights, ThreadsAndLanesChangeNoBit) {
     Settings settings = by({{"mode", mode}});
     settings.threads = 1;
     settings.isa = Isa::scalar;
-    const FrameResult one = draw_one(scene, {.settings = settings, .size = kManySize});
+    const FrameResult one = draw_one(scene, {.settings = settings, .size = kLightsSize});
     for (const Isa isa : supported_isas()) {
       settings.threads = 3;
       settings.isa = isa;
-      EXPECT_TRUE(same_pixels(one, draw_one(scene, {.settings = settings, .size = kManySize}))) << mode;
+      EXPECT_TRUE(same_pixels(one, draw_one(scene, {.settings = settings, .size = kLightsSize}))) << mode;
     }
   }
 }
@@ -200,10 +200,10 @@ TEST_P(ManyLights, ThreadsAndLanesChangeNoBit) {
 // The fewest bytes that hold the lights travel, and light beyond 64 lights.
 TEST_P(ManyLights, TheMaskHasAsManyBitsAsAreNeeded) {
   const Scene scene = pillars({.casting = GetParam()});
-  const FrameResult frame = draw_one(scene, {.size = kManySize});
+  const FrameResult frame = draw_one(scene, {.size = kLightsSize});
   const int lights = GetParam(), bits = lights <= 8 ? 8 : lights <= 16 ? 16 : lights <= 32 ? 32 : 64;
   EXPECT_EQ(frame.settings.mask_bits, bits);
-  const auto pixels = static_cast<std::size_t>(kManySize.x) * kManySize.y;
+  const auto pixels = static_cast<std::size_t>(kLightsSize.x) * kLightsSize.y;
   EXPECT_EQ(frame.record[Channel::mask], pixels * static_cast<std::size_t>(bits) / 8);
   EXPECT_EQ(frame.record[Channel::reflection] > 0, lights > 64);
   EXPECT_EQ(frame.mask.bits(), lights > 64 ? 128 : bits);
@@ -212,17 +212,17 @@ TEST_P(ManyLights, TheMaskHasAsManyBitsAsAreNeeded) {
 // With a narrower mask the other lights travel as light. The picture is the same within half precision.
 TEST_P(ManyLights, ANarrowMaskAndLightAreThePictureToo) {
   const Scene scene = pillars({.casting = GetParam(), .mirror = true});
-  const FrameResult exact = draw_one(scene, {.size = kManySize});
+  const FrameResult exact = draw_one(scene, {.size = kLightsSize});
   for (const int bits : {8, 16, 32}) {
     if (bits >= GetParam()) continue;
     Settings narrow;
     narrow.mask_bits = bits;
-    const FrameResult drawn = draw_one(scene, {.settings = narrow, .size = kManySize});
+    const FrameResult drawn = draw_one(scene, {.settings = narrow, .size = kLightsSize});
     EXPECT_TRUE(std::ranges::equal(drawn.ids.pixels(), exact.ids.pixels()));
     for (std::size_t i = 0; i < drawn.color.pixels().size(); ++i)
       ASSERT_LT(glm::distance(drawn.color[i], exact.color[i]), 0.004f) << bits << " bits, pixel " << i;
-    for (int y = 0; y < kManySize.y; ++y)
-      for (int x = 0; x < kManySize.x; ++x)
+    for (int y = 0; y < kLightsSize.y; ++y)
+      for (int x = 0; x < kLightsSize.x; ++x)
         for (int first = 0; first < GetParam(); first += 32)
           ASSERT_EQ(drawn.mask.get(x, y, first), exact.mask.get(x, y, first));
   }
@@ -234,10 +234,10 @@ TEST_P(ManyLights, TheSlidesFixedBytesDrawThem) {
   const ReferencePicture truth = truth_of(scene);
   for (const char* design : {"1", "2"}) {
     const Settings slides = by({{"design", design}, {"plan", "slides"}});
-    const FrameResult drawn = draw_one(scene, {.settings = slides, .size = kManySize});
+    const FrameResult drawn = draw_one(scene, {.settings = slides, .size = kLightsSize});
     EXPECT_EQ(drawn.settings.mask_bits, 8);
     EXPECT_EQ(drawn.record.bytes_to_gpu(),
-              static_cast<std::size_t>(kManySize.x) * kManySize.y * (design[0] == '1' ? 4 : 3));
+              static_cast<std::size_t>(kLightsSize.x) * kLightsSize.y * (design[0] == '1' ? 4 : 3));
     expect_near(drawn, truth, GetParam(), std::string("slides, design ") + design);
   }
 }
@@ -280,7 +280,7 @@ TEST_P(SizedLights, AreTheReferencesInTheMeanInEverySchedule) {
 
 TEST(ManyLightsFiles, TheExrHasAChannelForEach32Lights) {
   const Scene scene = pillars({.casting = 70});
-  const FrameResult frame = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kManySize});
+  const FrameResult frame = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kLightsSize});
   const std::filesystem::path file = own_file("lights.exr");
   write_exr(file, frame, {});
   const ExrFile exr = read_exr(file).value();
@@ -289,8 +289,8 @@ TEST(ManyLightsFiles, TheExrHasAChannelForEach32Lights) {
     const ExrChannel* const channel = exr.find("shadow.mask" + (word == 0 ? "" : std::to_string(word)));
     ASSERT_NE(channel, nullptr) << word;
     std::uint32_t set = 0;
-    for (int y = 0; y < kManySize.y; ++y)
-      for (int x = 0; x < kManySize.x; ++x) {
+    for (int y = 0; y < kLightsSize.y; ++y)
+      for (int x = 0; x < kLightsSize.x; ++x) {
         ASSERT_EQ(channel->uints[frame.ids.index(x, y)], frame.mask.get(x, y, 32 * word));
         set |= frame.mask.get(x, y, 32 * word);
       }
@@ -302,16 +302,16 @@ TEST(ManyLightsFiles, TheExrHasAChannelForEach32Lights) {
 TEST(ManyLightsFiles, ArraysHoldAllSlotsOrTheLowest) {
   for (const int lights : {3, 9, 40, 70}) {
     const Scene scene = pillars({.casting = lights});
-    const FrameResult frame = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kManySize});
-    const auto pixels = static_cast<std::size_t>(kManySize.x) * kManySize.y;
+    const FrameResult frame = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kLightsSize});
+    const auto pixels = static_cast<std::size_t>(kLightsSize.x) * kLightsSize.y;
     for (const std::size_t bytes :
          {std::size_t{1}, MaskImage::bytes_for(static_cast<std::size_t>(lights)), std::size_t{16}}) {
       std::vector<std::uint8_t> unpacked(pixels * bytes, 0xaa), many(pixels * bytes, 0xaa);
       unpack_mask(frame, unpacked.data(), bytes);
       for (std::size_t i = 0; i < pixels; ++i)
         for (std::size_t byte = 0; byte < bytes; ++byte) {
-          const int slot = static_cast<int>(8 * byte), x = static_cast<int>(i) % kManySize.x,
-                    y = static_cast<int>(i) / kManySize.x;
+          const int slot = static_cast<int>(8 * byte), x = static_cast<int>(i) % kLightsSize.x,
+                    y = static_cast<int>(i) / kLightsSize.x;
           const unsigned word = frame.mask.get(x, y, slot / 32 * 32);
           ASSERT_EQ(unpacked[i * bytes + byte], (word >> slot % 32) & 0xffu);
         }
@@ -320,7 +320,7 @@ TEST(ManyLightsFiles, ArraysHoldAllSlotsOrTheLowest) {
       arrays.mask_bytes = bytes;
       Engine engine;
       const std::vector<Camera> cameras{first_camera(scene)};
-      ASSERT_TRUE(render_many(engine, scene, cameras, kManySize, by({{"mode", "raytrace"}}), arrays));
+      ASSERT_TRUE(render_many(engine, scene, cameras, kLightsSize, by({{"mode", "raytrace"}}), arrays));
       EXPECT_EQ(many, unpacked) << lights << " lights, " << bytes << " bytes";
     }
   }
@@ -329,13 +329,13 @@ TEST(ManyLightsFiles, ArraysHoldAllSlotsOrTheLowest) {
 // A light that reaches nothing takes no bit and no ray.
 TEST(ManyLightsFiles, IdleLightsCostNothing) {
   Scene scene = pillars({.casting = 8});
-  const FrameResult few = draw_one(scene, {.size = kManySize});
+  const FrameResult few = draw_one(scene, {.size = kLightsSize});
   for (int i = 0; i < 60; ++i) {
     Light far = point_light({1000.0f, 5.0f, static_cast<float>(i)});
     far.range = 10.0f;
     scene.lights.push_back(far);
   }
-  const FrameResult many = draw_one(scene, {.size = kManySize});
+  const FrameResult many = draw_one(scene, {.size = kLightsSize});
   EXPECT_EQ(many.settings.mask_bits, 8);
   EXPECT_EQ(many.record.rays.shadow, few.record.rays.shadow);
   EXPECT_TRUE(same_pixels(few, many));

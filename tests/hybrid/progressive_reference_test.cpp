@@ -16,10 +16,10 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kPreciseSize{70, 50};  // tiles and squares cut at the edges
+constexpr glm::ivec2 kSize{70, 50};  // tiles and squares cut at the edges
 
 ReferenceView view_of(const Scene& scene) {
-  return {scene, {first_camera(scene), kPreciseSize}, 4};
+  return {scene, {first_camera(scene), kSize}, 4};
 }
 
 Image<glm::vec4> at_once(const ReferenceView& view) {
@@ -81,9 +81,9 @@ TEST(ProgressiveReference, GrowsFromSquaresOfExactPixels) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ASSERT_EQ(changed, share > last_share);
     last_share = share;
-    ASSERT_EQ(color.size(), kPreciseSize);
-    for (int y = 0; y < kPreciseSize.y; ++y)
-      for (int x = 0; x < kPreciseSize.x; ++x) {
+    ASSERT_EQ(color.size(), kSize);
+    for (int y = 0; y < kSize.y; ++y)
+      for (int x = 0; x < kSize.x; ++x) {
         const glm::vec4& c = color.at(x, y);
         const auto from = [&](int step) { return exact.at(x - x % step, y - y % step); };
         ASSERT_TRUE(c == glm::vec4(0.0f) || c == from(8) || c == from(4) || c == from(2) || c == from(1));
@@ -101,7 +101,7 @@ TEST(ProgressiveReference, AnotherViewDropsTheOneBefore) {
     view.view.camera.eye.x += 0.01f * static_cast<float>(i);
     reference.show(view);
     const auto [color, share, changed] = reference.poll();
-    EXPECT_EQ(color.size(), kPreciseSize);
+    EXPECT_EQ(color.size(), kSize);
     EXPECT_LE(share, 1.0);
   }
   EXPECT_TRUE(std::ranges::equal(finish(reference).pixels(), at_once(view).pixels()));
@@ -180,8 +180,7 @@ TEST(ReferenceErrors, AreTheFiguresAndTheHeat) {
   off.at(40, 10).g = std::numeric_limits<float>::quiet_NaN();
   const ReferenceError some = error_against(off, exact, ErrorMap::difference, workers);
   const double nan_error = static_cast<double>(exact.at(40, 10).g);
-  EXPECT_NEAR(some.rmse, std::sqrt((1.25 + nan_error * nan_error) / (3.0 * kPreciseSize.x * kPreciseSize.y)),
-              1e-6);
+  EXPECT_NEAR(some.rmse, std::sqrt((1.25 + nan_error * nan_error) / (3.0 * kSize.x * kSize.y)), 1e-6);
   EXPECT_GT(some.mean_flip, 0.0);
   const glm::u8vec3 heat = some.heat.at(20, 30);
   EXPECT_GT(heat.r + heat.g + heat.b, 500);

@@ -14,7 +14,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr glm::ivec2 kSoftSize{48, 32};
+constexpr glm::ivec2 kShadowSize{48, 32};
 constexpr float kIntensity = 10.0f;
 
 // Half of a floor under a plate.
@@ -51,7 +51,7 @@ Light panel() {
 }
 
 Image<glm::vec4> drawn(const Scene& scene, int spp, Settings settings = by({{"mode", "raytrace"}}),
-                       glm::ivec2 size = kSoftSize) {
+                       glm::ivec2 size = kShadowSize) {
   settings.spp = spp;
   return draw_one(scene, {.settings = settings, .size = size}).color;
 }
@@ -71,7 +71,7 @@ double sum_of(const Image<glm::vec4>& picture) {
 // How much of the light each row of pixels sees, by Mitsuba 3.
 struct Profile {
   Light light;
-  std::array<float, kSoftSize.y> visibility;
+  std::array<float, kShadowSize.y> visibility;
 };
 
 const std::vector<Profile>& profiles() {
@@ -96,7 +96,7 @@ TEST(SoftShadows, VisibilityIsMitsubas) {
     const Image<glm::vec4> covered = drawn(half_covered(profile.light), 256);
     const Image<glm::vec4> open = drawn(half_covered(profile.light, false), 256);
     double all = 0.0, expected = 0.0;
-    for (int y = 0; y < kSoftSize.y; ++y) {
+    for (int y = 0; y < kShadowSize.y; ++y) {
       const double visible = sum_of_row(covered, y) / sum_of_row(open, y);
       const auto truth = static_cast<double>(profile.visibility[static_cast<std::size_t>(y)]);
       EXPECT_NEAR(visible, truth, 0.015) << "row " << y;
@@ -171,7 +171,7 @@ TEST(SoftShadows, AgreesWithTheReference) {
     const Scene scene = half_covered(light);
     Workers workers(2);
     const Image<glm::vec4> truth =
-        reference_render(scene, {.camera = first_camera(scene), .size = kSoftSize}, 0, workers).color;
+        reference_render(scene, {.camera = first_camera(scene), .size = kShadowSize}, 0, workers).color;
     const Image<glm::vec4> ours = drawn(scene, 256);
     EXPECT_NEAR(sum_of(ours) / sum_of(truth), 1.0, 0.01) << "kind " << static_cast<int>(light.kind);
   }
@@ -216,14 +216,14 @@ TEST(AdaptiveSamples, StopWhereTheErrorIsMetAndAreNotBiased) {
     settings.spp = kMost;
     std::vector<FrameRecord> records;
     const Image<glm::vec4> picture =
-        draw_all(scene, {.settings = settings, .size = kSoftSize}, {first_camera(scene)}, &records)
+        draw_all(scene, {.settings = settings, .size = kShadowSize}, {first_camera(scene)}, &records)
             .front()
             .color;
     for (const FrameRecord& record : records) rays += record.rays.primary;
     bias += (sum_of(picture) / sum_of(truth) - 1.0) / kSeeds;
     error += error_of(picture, truth) / kSeeds;
   }
-  const auto all = static_cast<double>(kSeeds) * kMost * kSoftSize.x * kSoftSize.y;
+  const auto all = static_cast<double>(kSeeds) * kMost * kShadowSize.x * kShadowSize.y;
   std::printf("  %.1f %% of the samples, error %.4f, bias %.5f\n", 100.0 * static_cast<double>(rays) / all,
               error, bias);
   EXPECT_LT(static_cast<double>(rays), 0.5 * all);
@@ -264,11 +264,11 @@ TEST(Samples, ALensIsSharpWhereItIsFocused) {
   Camera camera = first_camera(scene);
   camera.lens_radius = 0.2f;
   camera.focus_distance = 1.5f;
-  View view{.camera = camera, .size = kSoftSize};
+  View view{.camera = camera, .size = kShadowSize};
   for (int k = 0; k < 16; ++k) {
     view.sample = k;
     const shared::ViewParams through = view_params(view);
-    const shared::ViewParams pinhole = view_params(first_camera(scene), kSoftSize);
+    const shared::ViewParams pinhole = view_params(first_camera(scene), kShadowSize);
     for (const glm::vec2 pixel : {glm::vec2(0, 0), glm::vec2(47, 31)}) {
       const glm::vec3 expected = pinhole.eye + 1.5f * shared::pixel_direction(pinhole, pixel);
       const glm::vec3 at = through.eye + 1.5f * shared::pixel_direction(through, pixel);

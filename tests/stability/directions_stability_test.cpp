@@ -8,8 +8,6 @@
 namespace pinocchio::stability {
 namespace {
 
-INSTANTIATE_TEST_SUITE_P(Directions, DefaultHolds, testing::ValuesIn(direction_cases()), test_name);
-
 TEST(Directions, TheProjectedTestLeaksAlongSplitPlanes) {
   expect_fails(stress_case(direction_cases(), "axis-parallel in split planes"),
                with(TriangleTest::projected));

@@ -1,4 +1,5 @@
-// What the stability tests ask of a case.
+// What the stability tests ask of a case. That the default methods hold is asked in
+// default_stability_test.cpp.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,31 +25,10 @@ inline const StressCase& stress_case(std::span<const StressCase> among, std::str
   return *found;
 }
 
-// The default, with every tree and at every width: not one failure.
-inline void expect_default_holds(const StressCase& stress_case) {
-  for (const Method& method : all_methods()) {
-    if (method.tree.triangle_test != BuildOptions{}.triangle_test ||
-        method.offset != OffsetMethod::error_bound || method.terminator != kUsualTerminator)
-      continue;
-    const FailureCount count = stress_case.run(method, kRays);
-    EXPECT_EQ(count.failures, 0u) << stress_case.name << ", " << method.name << ", of " << count.trials;
-    EXPECT_GT(count.trials, 0u) << stress_case.name;
-  }
-}
-
 // A test that cannot fail proves nothing: the cheaper method does.
 inline void expect_fails(const StressCase& stress_case, const Method& method) {
   const FailureCount count = stress_case.run(method, kRays);
   EXPECT_GT(count.failures, 0u) << stress_case.name << ", " << method.name << ", of " << count.trials;
-}
-
-class DefaultHolds : public testing::TestWithParam<StressCase> {};
-
-inline std::string test_name(const testing::TestParamInfo<StressCase>& info) {
-  std::string name;
-  for (const char c : info.param.name)
-    if (std::isalnum(static_cast<unsigned char>(c))) name += c;
-  return name;
 }
 
 }  // namespace pinocchio::stability

@@ -3,8 +3,6 @@
 namespace pinocchio::stability {
 namespace {
 
-INSTANTIATE_TEST_SUITE_P(Leaks, DefaultHolds, testing::ValuesIn(leak_cases()), test_name);
-
 TEST(Leaks, CheaperTestsLeak) {
   for (const char* name :
        {"edges and vertices", "edges far from the origin", "needles, aspect 1e6", "T-junctions"})

@@ -3,8 +3,6 @@
 namespace pinocchio::stability {
 namespace {
 
-INSTANTIATE_TEST_SUITE_P(Shadows, DefaultHolds, testing::ValuesIn(shadow_cases()), test_name);
-
 TEST(Shadows, OneLengthForAllScenesFails) {
   for (const char* name : {"scaled by 1e-6 to 1e6: acne", "moved by 1e6 sizes: acne", "scaled, closed room",
                            "moved, closed room", "ball of light: acne", "ball of light that touches: acne",

@@ -3,8 +3,6 @@
 namespace pinocchio::stability {
 namespace {
 
-INSTANTIATE_TEST_SUITE_P(Terminator, DefaultHolds, testing::ValuesIn(terminator_cases()), test_name);
-
 TEST(Terminator, WithoutRemedyFacetsAreDark) {
   expect_fails(stress_case(terminator_cases(), "shadow terminator"), with(Terminator::off));
 }

@@ -3,8 +3,6 @@
 namespace pinocchio::stability {
 namespace {
 
-INSTANTIATE_TEST_SUITE_P(Triangles, DefaultHolds, testing::ValuesIn(triangle_cases()), test_name);
-
 TEST(Triangles, CheaperTestsFail) {
   for (const char* name : {"duplicate triangles", "4096 through one point", "one 1e6 times larger"})
     for (const TriangleTest test : {TriangleTest::projected, TriangleTest::moeller_trumbore})
