@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """docs_test.py PROGRAM SOURCE_DIR: runs every command line of the program that README.md and docs/*.md show.
 
-In a folder with the scenes and the files that the lines name; small pictures, but for tiles of one. Lines of
-'view' need a display and are tested by window_test. Of lines that take minutes (scripts, pinocchio-bench) what they
+In a folder with the scenes and the files that the lines name; small pictures, but for tiles of one, and few samples, frames and
+triangles (SMALLER). Lines of 'view' need a display and are tested by window_test. Of lines that take minutes (scripts, pinocchio-bench) what they
 name is looked up: files of the tree, options. Farms' are run by tests/farm.
 """
 import os
@@ -15,6 +15,9 @@ import tempfile
 
 PROGRAM = re.compile(r"^(?:\$ )?(?:build/release/bin/)?pinocchio (.*)$")
 DRAWING = ("render", "measure", "chart")
+# What a line asks for many of is asked for few of: whether the line works does not hang on how many.
+SMALLER = ((r"--spp \d{2,}", "--spp 4"), (r"--frames 0-\d{2,}", "--frames 0-4"), (r"--frames \d{2,}(?!-)\b", "--frames 4"),
+           (r"--turntable \d{2,}", "--turntable 4"), (r"--triangles \d{5,}", "--triangles 1000"))
 
 
 def command_lines(text):
@@ -77,8 +80,12 @@ def main():
                     small = " --size 32x24" if verb in DRAWING and "--size" not in line else ""
                     if "--crop" not in line:
                         match = PROGRAM.match(re.sub(r"--size \d+x\d+", "--size 64x48", line))
-                    small += " --only exchange --repeat 1" if verb == "chart" and "--only" not in line else ""
-                    ours, pipe, theirs = match[1].partition(" | ")  # a reader that is not installed is replaced
+                    small += " --repeat 1" if verb == "chart" else ""
+                    small += " --only exchange" if verb == "chart" and "--only" not in line else ""
+                    ours, pipe, theirs = match[1].partition(" | ")
+                    for many, few in SMALLER:
+                        ours = re.sub(many, few, ours)
+                    # A reader that is not installed is replaced.
                     if pipe and not shutil.which(theirs.split()[0]):
                         theirs = "cat > /dev/null"
                     error = failure(f"set -o pipefail; '{program}' {ours}{small}{pipe}{theirs}")

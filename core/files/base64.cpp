@@ -24,7 +24,7 @@ constexpr std::array<std::array<std::uint32_t, 256>, 4> kLetterValues = [] {
   return values;
 }();
 
-std::uint32_t value_of(char letter, std::size_t place) {
+std::uint32_t bits_of(char letter, std::size_t place) {
   return kLetterValues[place][static_cast<unsigned char>(letter)];
 }
 
@@ -32,7 +32,7 @@ std::uint32_t value_of(char letter, std::size_t place) {
 bool decode_groups(std::string_view text, char* to) {
   for (const char *from = text.data(), *const end = from + text.size(); from != end; from += 4, to += 3) {
     const std::uint32_t bits =
-        value_of(from[0], 0) | value_of(from[1], 1) | value_of(from[2], 2) | value_of(from[3], 3);
+        bits_of(from[0], 0) | bits_of(from[1], 1) | bits_of(from[2], 2) | bits_of(from[3], 3);
     if (bits >= kNoLetter) return false;
     to[0] = bits >> 16;
     to[1] = bits >> 8;
@@ -46,7 +46,7 @@ char* decode_letters(std::string_view text, char* to) {
   std::uint32_t bits = 0;
   int count = 0;  // letters that are not yet whole bytes
   for (const char letter : text) {
-    const std::uint32_t value = value_of(letter, 3);
+    const std::uint32_t value = bits_of(letter, 3);
     if (value == kNoLetter) continue;
     bits = bits << 6 | value;
     count = (count + 1) % 4;

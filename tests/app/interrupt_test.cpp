@@ -1,9 +1,10 @@
-// A signal ends every verb within a second, wherever it is; a second one ends it at once. Nothing half stays.
+// A signal ends every verb soon, wherever it is; a second one ends it at once. Nothing half stays.
 #include <sys/wait.h>
 #include <unistd.h>
 #include <csignal>
 
 #include <chrono>
+#include <limits>
 #include <thread>
 #include <vector>
 
@@ -13,11 +14,13 @@
 namespace pinocchio {
 namespace {
 
+// Processor time of all its threads, two mostly: on a busy machine the clock tells how long they waited.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr double kSoon_s = 5.0, kStart_s = 1.0;  // of a sanitized program
+constexpr double kSoon_s = 10.0;  // of a sanitized program
 #else
-constexpr double kSoon_s = 1.0, kStart_s = 0.0;
+constexpr double kSoon_s = 2.0;
 #endif
+constexpr double kHangs_s = 60.0;  // by the clock
 
 class InterruptTest : public ProgramTest {
  protected:
@@ -36,37 +39,64 @@ class InterruptTest : public ProgramTest {
       execv(words.front().c_str(), pointers.data());
       _exit(127);
     }
+    wait_until_it_catches_signals(child);
     return child;
   }
 
+  // Without a handler, which a program does not have from the first, a signal ends it otherwise.
+  static void wait_until_it_catches_signals(pid_t child) {
+    for (const double begin_s = now_s(); now_s() - begin_s < kHangs_s;) {
+      std::ifstream status("/proc/" + std::to_string(child) + "/status");
+      for (std::string word; status >> word;)
+        if (word == "SigCgt:") {
+          std::uint64_t caught = 0;
+          status >> std::hex >> caught;
+          if (caught >> (SIGHUP - 1) & caught >> (SIGINT - 1) & caught >> (SIGTERM - 1) & 1U) return;
+        }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ADD_FAILURE() << "it catches no signals";
+  }
+
+  // Of a child that runs, or has ended and was not waited for.
+  [[nodiscard]] static double processor_s(pid_t child) {
+    std::ifstream stat("/proc/" + std::to_string(child) + "/stat");
+    stat.ignore(std::numeric_limits<std::streamsize>::max(), ')');  // its name may have spaces
+    std::string skipped;
+    for (int i = 0; i < 11; ++i) stat >> skipped;
+    double user = 0.0, system = 0.0;
+    stat >> user >> system;
+    return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  }
+
   struct End {
-    int code = -1;  // -1: by a signal, or not within ten seconds
-    double after_s = 0.0;
+    int code = -1;         // -1: by a signal, or it hung
+    double after_s = 0.0;  // processor time after the signal
   };
-  [[nodiscard]] static End wait(pid_t child, double since_s) {
-    int status = 0;
-    while (waitpid(child, &status, WNOHANG) == 0) {
-      if (now_s() - since_s > 10.0) {
-        kill(child, SIGKILL);
-        waitpid(child, &status, 0);
-        return {-1, 10.0};
-      }
+  [[nodiscard]] static End end_by(int signal, pid_t child) {
+    const double begin_s = now_s(), used_s = processor_s(child);
+    kill(child, signal);
+    siginfo_t ended{};
+    while (waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT | WNOHANG) == 0 &&
+           ended.si_pid == 0) {
+      if (now_s() - begin_s > kHangs_s) kill(child, SIGKILL);
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, now_s() - since_s};
+    const double after_s = processor_s(child) - used_s;
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, after_s};
   }
 
   void expect_ends_soon(const std::vector<std::string>& arguments, double after_s,
                         int signal = SIGINT) const {
     const pid_t child = start(arguments);
-    std::this_thread::sleep_for(std::chrono::duration<double>(kStart_s + after_s));
+    std::this_thread::sleep_for(std::chrono::duration<double>(after_s));
     expect_ends_soon(child, arguments, signal);
   }
 
   void expect_ends_soon(pid_t child, const std::vector<std::string>& arguments, int signal = SIGINT) const {
-    const double begin_s = now_s();
-    kill(child, signal);
-    const End end = wait(child, begin_s);
+    const End end = end_by(signal, child);
     EXPECT_EQ(end.code, 130) << arguments.front() << ": " << read("scratch/err");
     EXPECT_LT(end.after_s, kSoon_s) << arguments.front();
     EXPECT_NE(read("scratch/err").find("interrupted; what was finished is kept"), std::string::npos);
@@ -115,11 +145,9 @@ TEST_F(InterruptTest, ThePrecisePicture) {
 TEST_F(InterruptTest, WhatWasFinishedIsKept) {
   const pid_t child =
       start({"render", speedboat(), "--turntable", "100000", "--size", "64x48", "-o", "f####.exr"});
-  for (int i = 0; i < 1000 && !exists("f0003.exr"); ++i)
+  for (int i = 0; i < 6000 && !exists("f0003.exr"); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  const double begin_s = now_s();
-  kill(child, SIGTERM);
-  const End end = wait(child, begin_s);
+  const End end = end_by(SIGTERM, child);
   EXPECT_EQ(end.code, 130);
   EXPECT_LT(end.after_s, kSoon_s);
   EXPECT_TRUE(exists("f0000.exr") && exists("f0003.exr"));
@@ -130,7 +158,7 @@ TEST_F(InterruptTest, GenerateReadAndBuild) {
   expect_ends_soon({"generate", "forest", "--triangles", "20000000", "-o", "x.gltf"}, 0.3);  // making it
   const std::vector<std::string> written{"generate", "forest", "--triangles", "6000000", "-o", "x.gltf"};
   const pid_t writes = start(written);
-  for (int i = 0; i < 20000 && part_files() == 0; ++i)
+  for (int i = 0; i < 60000 && part_files() == 0; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   expect_ends_soon(writes, written);
   EXPECT_FALSE(exists("x.gltf"));
@@ -149,9 +177,7 @@ TEST_F(InterruptTest, ASecondSignalEndsAtOnce) {
   std::this_thread::sleep_for(std::chrono::milliseconds(700));
   kill(child, SIGINT);
   std::this_thread::sleep_for(std::chrono::milliseconds(80));
-  const double begin_s = now_s();
-  kill(child, SIGINT);
-  const End end = wait(child, begin_s);
+  const End end = end_by(SIGINT, child);
   EXPECT_EQ(end.code, 130);
   EXPECT_LT(end.after_s, 0.5);
   EXPECT_EQ(part_files(), 0u);

@@ -94,7 +94,7 @@ Material phong(float specular, float shininess) {
 
 // Nothing hides the sky of a ball, so that only the splitting into means is wrong.
 TEST(Prefiltered, ABallIsLitAsBySamples) {
-  const DrawRequest size{.size = {96, 96}};
+  const DrawRequest size{.size = {64, 64}};
   const auto expect_near = [&](const Material& m, double mean, double each, const std::string& what) {
     const Scene scene = ball(m);
     DrawRequest request = size;

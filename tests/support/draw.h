@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,11 +36,18 @@ struct DrawRequest {
   std::optional<Settings> resolved{};  // instead of those: as they are
 };
 
+// One engine for each backend: a context and its programs take longer than a small picture. None is ever
+// ended: at a program's end the drivers end themselves before it could be.
+inline Engine& engine_of(const std::string& backend) {
+  static auto& engines = *new std::map<std::string, Engine>;
+  return engines.try_emplace(backend, EngineOptions{.backend = backend, .gl_debug = true}).first->second;
+}
+
 // One picture a camera.
 inline std::vector<FrameResult> draw_all(const Scene& scene, const DrawRequest& request,
                                          const std::vector<Camera>& cameras,
                                          std::vector<FrameRecord>* records = nullptr) {
-  Engine engine({.backend = request.backend, .gl_debug = true});
+  Engine& engine = engine_of(request.backend);
   FrameRequest frame{scene, nullptr, request.settings, {{}, request.size, request.part}};
   frame.settings.threads.fill(2);
   frame.settings = request.resolved ? *request.resolved

@@ -70,7 +70,7 @@ void sweep(const CandidatePlanes& p, float* candidates, BestOfLanes& best) {
   for (const std::span<float> bounds : {p.lows, p.highs, p.flats}) std::sort(bounds.begin(), bounds.end());
   float* end = std::merge(p.lows.begin(), p.lows.end(), p.highs.begin(), p.highs.end(), candidates);
   end = std::unique(candidates, end);
-  std::fill_n(end, kAtOnce - 1, end[-1]);
+  std::fill_n(end, kPlanesAtOnce - 1, end[-1]);
   std::size_t low = 0, ended = 0, flat = 0;
   alignas(16) float counts[3][4];
   for (const float* four = candidates; four < end; four += 4) {
@@ -102,7 +102,7 @@ void try_planes(const CandidatePlanes& planes, const SahCost& cost, int axis, st
   } else {
     float* const end = std::copy(planes.highs.begin(), planes.highs.end(),
                                  std::copy(planes.lows.begin(), planes.lows.end(), candidates));
-    std::fill_n(end, kAtOnce - 1, candidates[0]);
+    std::fill_n(end, kPlanesAtOnce - 1, candidates[0]);
     compare_all(planes, candidates, n, lanes);
   }
   lanes.put(axis, best);

@@ -17,10 +17,10 @@ struct CandidatePlanes {
 };
 
 // Planes tried at once.
-inline constexpr std::size_t kAtOnce = 8;
+inline constexpr std::size_t kPlanesAtOnce = 8;
 
 // Tries a plane at every bound and takes those that cost less than `best`. `buffer` has room for all bounds
-// and for kAtOnce more.
+// and for kPlanesAtOnce more.
 void try_planes(const CandidatePlanes& planes, const SahCost& cost, int axis, std::span<float> buffer,
                 SplitPlane& best);
 

@@ -171,7 +171,7 @@ void search_open(std::span<const BuildReference> references, const Bounds& node,
 void make_room(SplitScratch& s, std::size_t references) {
   if (s.ends.size() >= references && !s.candidates.empty()) return;
   for (std::vector<float>* v : {&s.lows, &s.highs, &s.flats}) v->resize(references + 1);
-  s.candidates.resize(2 * references + kAtOnce);
+  s.candidates.resize(2 * references + kPlanesAtOnce);
   s.ends.resize(references);
 }
 

@@ -15,7 +15,7 @@ namespace pinocchio {
 namespace {
 
 constexpr glm::ivec2 kSize{48, 40};
-constexpr long kTrials = 300;
+constexpr long kTrials = 100;
 
 Settings alone() {
   Settings settings = by({{"mode", "raytrace"}});
