@@ -22,7 +22,7 @@ constexpr std::string_view kInterruptedLine = "pinocchio: interrupted; what was 
 // Some programs send a signal to the process and to its group: both count as one.
 constexpr long kOneSignal_ns = 50'000'000;
 
-pinocchio::Progress progress;
+pinocchio::Progress progress_of_run;
 timer_t deadline;
 volatile std::sig_atomic_t signalled = 0;
 timespec first_signal;
@@ -40,7 +40,7 @@ void on_interrupt(int) {
   if (signalled == 0) {
     signalled = 1;
     first_signal = now;
-    progress.cancel();
+    progress_of_run.cancel();
     const itimerspec grace{{0, 0}, {0, kGrace_ns}};
     timer_settime(deadline, 0, &grace, nullptr);
     return;
@@ -84,11 +84,11 @@ void catch_interrupts() {
 }
 
 pinocchio::Progress& run_progress() {
-  return progress;
+  return progress_of_run;
 }
 
 bool interrupted() {
-  return progress.cancelled();
+  return progress_of_run.cancelled();
 }
 
 Progress::Progress(const std::string& mode, std::string what, std::size_t total)
