@@ -17,9 +17,13 @@ target_compile_definitions(pinocchio_settings INTERFACE GLM_FORCE_EXPLICIT_CTOR)
 # GCC collects garbage often by default: 13 % of the time of our larger files, for memory that developers have.
 target_compile_options(pinocchio_settings INTERFACE
                        $<$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:RelWithDebInfo>>:--param=ggc-min-heapsize=1000000>)
-# Linked as well by what nobody waits for (verbs, panels, tests): optimising it takes longer than it ever saves.
+# Linked as well by what is timed (bench), which happens in Release: elsewhere optimising it takes longer than it ever saves.
+add_library(pinocchio_timed INTERFACE)
+target_compile_options(pinocchio_timed INTERFACE $<$<CONFIG:RelWithDebInfo>:-Og>)
+# Linked as well by what nobody waits for (verbs, panels, tests), where that is so in Release, too.
 add_library(pinocchio_cold INTERFACE)
-target_compile_options(pinocchio_cold INTERFACE $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-Og>)
+target_link_libraries(pinocchio_cold INTERFACE pinocchio_timed)
+target_compile_options(pinocchio_cold INTERFACE $<$<CONFIG:Release>:-O1>)
 if(PINOCCHIO_SANITIZE)
   target_compile_options(pinocchio_settings INTERFACE -fsanitize=${PINOCCHIO_SANITIZE} -fno-sanitize-recover=all
                          -fno-omit-frame-pointer)

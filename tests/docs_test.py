@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """docs_test.py PROGRAM SOURCE_DIR: runs every command line of the program that README.md and docs/*.md show.
 
-In a folder with the scenes and the files that the lines name; small pictures, but for tiles of one, and few samples, frames and
-triangles (SMALLER). Lines of 'view' need a display and are tested by window_test. Of lines that take minutes (scripts, pinocchio-bench) what they
-name is looked up: files of the tree, options. Farms' are run by tests/farm.
+In a folder with the scenes and the files that the lines name. Pictures are made smaller, but for tiles of one, and large numbers of
+samples, frames and triangles are replaced (SMALLER). Lines of 'view' need a display and are tested by window_test. Of lines that take
+minutes (scripts, pinocchio-bench) what they name is looked up: files of the tree, options. Farms' are run by tests/farm.
 """
 import os
 import pathlib
@@ -15,7 +15,7 @@ import tempfile
 
 PROGRAM = re.compile(r"^(?:\$ )?(?:build/release/bin/)?pinocchio (.*)$")
 DRAWING = ("render", "measure", "chart")
-# What a line asks for many of is asked for few of: whether the line works does not hang on how many.
+# Replaces large numbers by small ones, to save time: the line is checked, not its picture.
 SMALLER = ((r"--spp \d{2,}", "--spp 4"), (r"--frames 0-\d{2,}", "--frames 0-4"), (r"--frames \d{2,}(?!-)\b", "--frames 4"),
            (r"--turntable \d{2,}", "--turntable 4"), (r"--triangles \d{5,}", "--triangles 1000"))
 

@@ -2,22 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
-#include <ctime>
 
+#include "core/base/clock.h"
 #include "core/math/median.h"
 #include "hybrid/frame/samples.h"
 
 namespace pinocchio::chart {
-namespace {
-
-// The time of all threads of this process, also of a software rasteriser's.
-double processor_ms() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-}  // namespace
 
 // Points of a chart do not depend on frames that other points have drawn.
 TimedRenderer::TimedRenderer(Engine& engine, FrameRequest request, Progress* progress)
@@ -29,14 +19,14 @@ TimedRenderer::TimedRenderer(Engine& engine, FrameRequest request, Progress* pro
 TimedRenderer::Round TimedRenderer::draw(const std::vector<View>& views) {
   assert(views.size() > kWarmUpFrames + 1);
   records_.clear();
-  const double begin_cpu_ms = processor_ms();
+  const double begin_cpu_s = processor_s();
   for (const View& view : views) {
     request_.view = view;
     submit_samples(renderer_, request_);
   }
   renderer_.drain();
   Round round;
-  round.cpu_ms = (processor_ms() - begin_cpu_ms) / static_cast<double>(views.size());
+  round.cpu_ms = 1e3 * (processor_s() - begin_cpu_s) / static_cast<double>(views.size());
 
   const auto samples = static_cast<std::size_t>(request_.settings.spp);
   const auto first_sample = [&](std::size_t frame) -> const FrameRecord& {

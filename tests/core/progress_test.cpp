@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <thread>
 #include <vector>
 
+#include "core/base/clock.h"
 #include "core/reference/reference.h"
 #include "pinocchio/exr.h"
 #include "pinocchio/load.h"
@@ -22,14 +22,8 @@
 namespace pinocchio {
 namespace {
 
-// Of all threads: on a busy machine the clock tells how long they waited.
-double processor_s() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-// Cancels the work once its phase has that name, and returns the processor time for which it went on.
+// Cancels the work once its phase has that name. Returns the processor time that the work used after that:
+// the clock would also count how long it waited for a core.
 double seconds_after_cancel(const std::string& phase, const std::function<void(Progress*)>& work) {
   Progress progress;
   double cancelled_s = 0.0;

@@ -46,7 +46,8 @@ TEST_P(ProgramTest, EveryShaderCompilesInEveryVariant) {
       EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", "show.frag", {bits, texels}));
     EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", "gbuffer.frag", {bits, "NORMALS_ONLY"}));
   }
-  // How many bits an id has changes a line: each of these variants is compiled with one of them, in turn.
+  // ID_BITS changes one line of a shader. To save time, each of these variants is compiled with one of its
+  // values, in turn.
   std::size_t turn = 0;
   const auto compile = [&](const char* file, std::vector<std::string> definitions, const char* shown) {
     definitions.emplace_back(kBits[turn++ % kBits.size()]);

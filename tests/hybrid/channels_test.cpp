@@ -85,7 +85,7 @@ TEST_P(ChannelsTest, FramesKeepToTheTable) {
     for (const Processor composite : {Processor::cpu, Processor::gpu})
       for (const char* plan : {"auto", "slides"})
         for (const bool tiles : {false, true}) {
-          if (tiles && composite == Processor::cpu) continue;  // it sends no tiles
+          if (tiles && composite == Processor::cpu) continue;  // no tiles are sent
           for (const ReflectionFormat format : {ReflectionFormat::rgb8, ReflectionFormat::rgb9e5,
                                                 ReflectionFormat::half, ReflectionFormat::full}) {
             Settings wanted;

@@ -36,8 +36,8 @@ struct DrawRequest {
   std::optional<Settings> resolved{};  // instead of those: as they are
 };
 
-// One engine for each backend: a context and its programs take longer than a small picture. None is ever
-// ended: at a program's end the drivers end themselves before it could be.
+// The engine of a backend, made once in a process: making a context and its programs takes longer than
+// drawing a small picture. It is never destroyed: when a process exits, Mesa is destroyed first.
 inline Engine& engine_of(const std::string& backend) {
   static auto& engines = *new std::map<std::string, Engine>;
   return engines.try_emplace(backend, EngineOptions{.backend = backend, .gl_debug = true}).first->second;

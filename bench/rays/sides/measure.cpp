@@ -1,11 +1,9 @@
 #include "bench/rays/sides/measure.h"
 
-#include <time.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "core/base/clock.h"
 #include "core/math/median.h"
 
 namespace pinocchio::bench {
@@ -28,11 +26,7 @@ std::size_t count_different(const std::vector<Hit>& a, const std::vector<Hit>& b
 bool by_processor = false;  // count_processor_time
 
 double now() {
-  if (!by_processor)
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  return by_processor ? processor_s() : now_s();
 }
 
 void trace_all(RayBackend& backend, std::size_t rays, Workers& workers) {

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kLargestPart = 65536;
 
 // References that a thread takes at a time.
-constexpr std::size_t kInChunk = 16384;
+constexpr std::size_t kChunkReferences = 16384;
 
 struct Chunk {
   std::size_t node, first, count;
@@ -36,8 +36,9 @@ struct Level {
 std::vector<Chunk> chunks_of(const std::vector<TreePart>& nodes) {
   std::vector<Chunk> chunks;
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    for (std::size_t first = 0; first < nodes[i].references.size(); first += kInChunk)
-      chunks.push_back({i, first, std::min(kInChunk, nodes[i].references.size() - first), {}, {}, {}, {}});
+    for (std::size_t first = 0; first < nodes[i].references.size(); first += kChunkReferences)
+      chunks.push_back(
+          {i, first, std::min(kChunkReferences, nodes[i].references.size() - first), {}, {}, {}, {}});
   return chunks;
 }
 
