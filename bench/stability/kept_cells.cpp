@@ -5,12 +5,14 @@
 #include <fstream>
 #include <system_error>
 
+#include "core/base/clock.h"
 #include "core/files/atomic_file.h"
 
 namespace pinocchio::stability {
 namespace {
 
 constexpr std::array kNumbers{"trials", "failures", "excused", "seconds"};
+constexpr double kWrittenEvery_s = 1.0;  // many cells take milliseconds; the file holds all of them
 
 bool is_cell(const nlohmann::json& cell) {
   const auto is_text = [&](const char* key) { return cell.contains(key) && cell[key].is_string(); };
@@ -49,7 +51,12 @@ const nlohmann::json* KeptCells::find(const std::string& table, const std::strin
 
 void KeptCells::add(nlohmann::json cell) {
   json_["cells"].push_back(std::move(cell));
+  if (now_s() - written_s_ >= kWrittenEvery_s) write();
+}
+
+void KeptCells::write() {
   write_text(file_, json_.dump() + "\n");
+  written_s_ = now_s();
 }
 
 void KeptCells::remove() const {

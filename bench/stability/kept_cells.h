@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -19,8 +20,10 @@ class KeptCells {
   // The cell with that "table", "case" and "method"; null: it is not counted yet.
   [[nodiscard]] const nlohmann::json* find(const std::string& table, const std::string& stress_case,
                                            const std::string& method) const;
-  // Writes the file whole or not at all. Throws EnvironmentError.
+  // The first cell is written at once, the others with those of a second. Throws EnvironmentError.
   void add(nlohmann::json cell);
+  // Writes the file whole or not at all. Throws EnvironmentError.
+  void write();
   // Removes the file: the tables are complete.
   void remove() const;
 
@@ -30,6 +33,7 @@ class KeptCells {
 
   std::filesystem::path file_;
   nlohmann::json json_;
+  double written_s_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace pinocchio::stability

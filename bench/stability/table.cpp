@@ -70,7 +70,10 @@ bool fill(const StressCases& cases, const Methods& methods, const Run& run,
         json["table"] = table.name;
         kept.add(std::move(json));
       }
-      if (!after_cell()) return false;
+      if (!after_cell()) {
+        kept.write();
+        return false;
+      }
     }
   }
   return true;
