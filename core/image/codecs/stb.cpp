@@ -23,6 +23,34 @@
 #include "pinocchio/conversion.h"
 
 namespace pinocchio {
+namespace {
+
+// A file in memory, as stb_image reads it.
+struct StbFile {
+  std::span<const unsigned char> bytes;
+  std::size_t at = 0;
+  bool is_cut = false;  // more was wanted than there is
+
+  // stb_image's own memory holds 128 bytes, which it fills as far as it can.
+  int read(char* to, int wanted) {
+    constexpr std::size_t kFilled = sizeof(stbi__context::buffer_start);
+    const std::size_t count = std::min(as_size(wanted), bytes.size() - at);
+    is_cut = is_cut || (wanted > 0 && count == 0) || (count < as_size(wanted) && as_size(wanted) != kFilled);
+    std::copy_n(bytes.data() + at, count, to);
+    at += count;
+    return as_int(count);
+  }
+  void skip(int count) { at += std::min(as_size(count), bytes.size() - at); }
+};
+
+constexpr stbi_io_callbacks kStbReads{
+    [](void* file, char* to, int wanted) { return static_cast<StbFile*>(file)->read(to, wanted); },
+    [](void* file, int count) { static_cast<StbFile*>(file)->skip(count); },
+    [](void* file) {
+      return static_cast<StbFile*>(file)->at == static_cast<StbFile*>(file)->bytes.size() ? 1 : 0;
+    }};
+
+}  // namespace
 
 bool is_stb(std::span<const unsigned char> bytes) {
   int width = 0, height = 0, channels = 0;
@@ -38,12 +66,14 @@ Expected<DecodedImage> decode_stb(const EncodedPicture& picture) {
   // A BMP whose first row is its top one says so by a height below zero.
   Expected<DecodedImage> image = picture.black(width, std::abs(std::int64_t{height}));
   if (!image) return image;
+  StbFile file{picture.bytes};
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-      stbi_load_from_memory(picture.bytes.data(), size, &width, &height, &channels, 4), stbi_image_free);
+      stbi_load_from_callbacks(&kStbReads, &file, &width, &height, &channels, 4), stbi_image_free);
   if (!pixels || glm::ivec2(width, height) != image->texture.texels.size())
     return picture.error(std::string("cannot be decoded: ") +
                          (pixels ? "its size changes" : stbi_failure_reason()));
   std::copy_n(pixels.get(), bytes_of(*image).size(), bytes_of(*image).data());
+  if (file.is_cut) image->damage = "it is cut off";
   return image;
 }
 

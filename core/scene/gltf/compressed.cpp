@@ -99,6 +99,7 @@ class DracoPrimitive {
     draco::StatusOr<std::unique_ptr<draco::Mesh>> decoded = decoder.DecodeMeshFromBuffer(&buffer);
     if (!decoded.ok())
       return file_.error(std::string(kWhose) + " cannot be unpacked: " + decoded.status().error_msg_string());
+    if (const Expected<void> fits = within_limit(*decoded.value()); !fits) return fits;
     return add_accessors(*decoded.value());
   }
 
@@ -114,7 +115,20 @@ class DracoPrimitive {
     };
     add(primitive_.indices, sizeof(std::uint32_t));
     for (const auto& [name, accessor] : primitive_.attributes) add(accessor, sizeof(glm::vec4));
-    if (!file_.limit->take(file_.path.string(), kWhose, bytes, 1)) return Unexpected(*file_.limit->error());
+    return claim(bytes);
+  }
+
+  // Claims what was unpacked, where the accessors state less.
+  Expected<void> within_limit(const draco::Mesh& mesh) {
+    return claim(std::uint64_t{mesh.num_faces()} * sizeof(glm::uvec3) +
+                 std::uint64_t{mesh.num_points()} * sizeof(glm::vec4) * primitive_.attributes.size());
+  }
+
+  // `bytes`: those claimed before included.
+  Expected<void> claim(std::uint64_t bytes) {
+    const std::uint64_t more = bytes - std::min(bytes, claimed_);
+    claimed_ += more;
+    if (!file_.limit->take(file_.path.string(), kWhose, more, 1)) return Unexpected(*file_.limit->error());
     return {};
   }
 
@@ -148,6 +162,7 @@ class DracoPrimitive {
 
   GltfFile& file_;
   GltfPrimitive& primitive_;
+  std::uint64_t claimed_ = 0;
 };
 
 }  // namespace

@@ -25,7 +25,8 @@ double count_of(const GltfFile& file, int accessor) {
 
 MeshSize size_of(const GltfFile& file, const GltfMesh& mesh, const PointsAndLines& strokes) {
   MeshSize size;
-  std::set<GltfAttributes> known;  // primitives that share their attributes share the vertices
+  // Primitives that share their attributes and morph targets share the vertices.
+  std::set<std::pair<GltfAttributes, std::vector<GltfAttributes>>> known;
   for (const GltfPrimitive& primitive : mesh.primitives) {
     size.morphs = size.morphs || !primitive.targets.empty();
     const int position = primitive.attribute("POSITION");
@@ -40,7 +41,7 @@ MeshSize size_of(const GltfFile& file, const GltfMesh& mesh, const PointsAndLine
       continue;
     }
     size.triangles += primitive.mode == kGltfTriangles ? corners / 3.0 : corners;
-    if (known.insert(primitive.attributes).second) size.vertices += vertices;
+    if (known.emplace(primitive.attributes, primitive.targets).second) size.vertices += vertices;
   }
   return size;
 }

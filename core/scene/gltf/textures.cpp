@@ -1,6 +1,8 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "core/image/codecs/texture_file.h"
 #include "core/scene/gltf/file.h"
@@ -51,15 +53,31 @@ struct TexelRange {
   glm::vec4 least{1.0f}, most{1.0f};
 };
 
-TexelRange range_of(const MeshData& mesh, const TextureUse& use) {
-  if (!use.used()) return {};
-  glm::u8vec4 least(255), most(0);
-  for (const glm::u8vec4& t : mesh.textures[use.texture].texels.pixels()) {
-    least = glm::min(least, t);
-    most = glm::max(most, t);
+// Of the mesh's textures. Many materials may use one: it is looked through once.
+class TexelRanges {
+ public:
+  explicit TexelRanges(const MeshData& mesh) : mesh_(mesh), known_(mesh.textures.size()) {}
+
+  TexelRange of(const TextureUse& use) {
+    if (!use.used()) return {};
+    std::optional<TexelRange>& known = known_[as_size(use.texture)];
+    if (!known) known = found(mesh_.textures[use.texture]);
+    return *known;
   }
-  return {glm::vec4(least) / 255.0f, glm::vec4(most) / 255.0f};
-}
+
+ private:
+  static TexelRange found(const Texture& texture) {
+    glm::u8vec4 least(255), most(0);
+    for (const glm::u8vec4& t : texture.texels.pixels()) {
+      least = glm::min(least, t);
+      most = glm::max(most, t);
+    }
+    return {glm::vec4(least) / 255.0f, glm::vec4(most) / 255.0f};
+  }
+
+  const MeshData& mesh_;
+  std::vector<std::optional<TexelRange>> known_;
+};
 
 // The roughness in green of a texture that has glossiness in alpha.
 Texture roughness_texture(const Texture& from, float glossiness) {
@@ -89,10 +107,9 @@ void add_roughness(const GltfFile& file, MeshData& mesh, Loading& loading) {
 }
 
 // The most that a surface mirrors and lets through anywhere: it decides whether rays are traced for it.
-void bound_rays(const MeshData& mesh, Material& material, const MaterialMaps& maps) {
+void bound_rays(TexelRanges& ranges, Material& material, const MaterialMaps& maps) {
   if (!maps.from_gltf || !(maps.metallic_roughness.used() || maps.transmission.used())) return;
-  const TexelRange rough_metal = range_of(mesh, maps.metallic_roughness),
-                   passes = range_of(mesh, maps.transmission);
+  const TexelRange rough_metal = ranges.of(maps.metallic_roughness), passes = ranges.of(maps.transmission);
   GltfSurface sharpest = maps.surface;
   sharpest.roughness *= rough_metal.least.g;
   sharpest.metallic *= rough_metal.most.b;
@@ -142,8 +159,9 @@ void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading) {
   }
   for (TextureUse* use : uses) use->texture = ours[place.at(use->texture)];
   add_roughness(file, mesh, loading);
+  TexelRanges ranges(mesh);
   for (Material& material : mesh.materials)
-    if (material.maps >= 0) bound_rays(mesh, material, mesh.maps[material.maps]);
+    if (material.maps >= 0) bound_rays(ranges, material, mesh.maps[material.maps]);
   finish_textures(mesh, loading.progress);
 }
 

@@ -1,4 +1,5 @@
 #include <map>
+#include <set>
 
 #include "core/files/input_file.h"
 #include "core/files/text_lines.h"
@@ -69,6 +70,7 @@ class MtlLibraries {
   }
 
   void read_file(const std::filesystem::path& mtl) {
+    if (!read_.insert(mtl.string()).second) return;
     files.push_back(mtl.string());
     Expected<FileBytes> bytes = loading_.files.read(mtl, loading_.progress);
     if (!bytes) {
@@ -93,6 +95,7 @@ class MtlLibraries {
   const std::filesystem::path& file_;
   Loading& loading_;
   std::map<std::string, int> by_name_, by_bare_name_;  // with and without a comment behind it
+  std::set<std::string> read_;                         // `files`, to find them
 };
 
 Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading) {

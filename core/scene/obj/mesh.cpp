@@ -39,8 +39,9 @@ class ObjMeshBuilder {
   std::uint32_t vertex_of(const ObjText::Corner& corner) { return vertex_of(corner, 0); }
 
   void finish() {
-    for (const std::uint32_t vertex : smooth_vertices_)
-      if (glm::vec3& n = mesh_.normals[vertex]; n != glm::vec3(0.0f)) n = glm::normalize(n);
+    if (any_texcoord_) join_seams();
+    for (const SmoothVertex& smooth : smooth_vertices_)
+      if (glm::vec3& n = mesh_.normals[smooth.vertex]; n != glm::vec3(0.0f)) n = glm::normalize(n);
     if (!any_texcoord_) mesh_.texcoords.clear();
   }
 
@@ -60,11 +61,26 @@ class ObjMeshBuilder {
     }
   };
 
+  // One that gets its normal from the faces of a smoothing group.
+  struct SmoothVertex {
+    std::uint32_t vertex, group;
+    int position;
+  };
+
+  // Vertices of a group at one position have one normal, whatever their texture coordinates.
+  void join_seams() {
+    using Place = std::pair<int, std::uint32_t>;
+    std::unordered_map<Place, glm::vec3, boost::hash<Place>> sums;
+    sums.reserve(smooth_vertices_.size());
+    for (const SmoothVertex& v : smooth_vertices_) sums[{v.position, v.group}] += mesh_.normals[v.vertex];
+    for (const SmoothVertex& v : smooth_vertices_) mesh_.normals[v.vertex] = sums[{v.position, v.group}];
+  }
+
   std::uint32_t vertex_of(const ObjText::Corner& corner, std::uint32_t smoothing_group) {
     const std::uint32_t group = corner.normal < 0 ? smoothing_group : 0;
     const auto [at, is_new] = vertices_.try_emplace({corner, group}, as_uint32(mesh_.positions.size()));
     if (!is_new) return at->second;
-    if (group > 0) smooth_vertices_.push_back(at->second);
+    if (group > 0) smooth_vertices_.push_back({at->second, group, corner.position});
     append(corner);
     return at->second;
   }
@@ -86,7 +102,7 @@ class ObjMeshBuilder {
   const ObjText& obj_;
   MeshData& mesh_;
   std::unordered_map<Key, std::uint32_t, Hash> vertices_;
-  std::vector<std::uint32_t> smooth_vertices_;
+  std::vector<SmoothVertex> smooth_vertices_;
   bool any_texcoord_ = false;
 };
 

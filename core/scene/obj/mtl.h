@@ -23,7 +23,7 @@ struct MtlMaterial {
   glm::vec3 ka{0.0f}, ks{0.0f}, tf{0.0f};
   std::optional<glm::vec3> kd, ke;  // none: their textures are multiplied by a default, not by 0
   float ns = 1.0f, ni = 1.0f, dissolve = 1.0f;
-  int illum = 0;
+  std::optional<int> illum;
   std::optional<float> metallic, roughness;  // Pm, Pr
   MtlTexture map_kd, map_d, map_ke, map_bump, norm;
 };

@@ -13,27 +13,28 @@
 namespace pinocchio {
 namespace {
 
-// MTL's illumination models: 2 highlight, 3 mirror, 4 glass, 5 Fresnel mirror, 6 refraction, 7 refraction
-// with Fresnel. Exporters write 4, 6 and 7 for plain materials too: only what has an index of refraction
-// and lets light through (Tf above 0, or d below 1) refracts.
+// MTL's illumination models, 2 where a material names none: 2 highlight, 3 mirror, 4 glass, 5 Fresnel mirror,
+// 6 refraction, 7 refraction with Fresnel. Exporters write 4, 6 and 7 for plain materials too: only what has
+// an index of refraction and lets light through (Tf above 0, or d below 1) refracts.
 Material phong_of(const MtlMaterial& m) {
   constexpr float kTexturedKd = 0.6f;  // a texture's factor without Kd
   Material material;
   material.name = m.name;
   material.diffuse = m.kd.value_or(glm::vec3(m.map_kd.file.empty() ? 0.0f : kTexturedKd));
   material.ambient = m.ka == glm::vec3(0.0f) ? material.diffuse : m.ka;  // few files have Ka
-  material.specular = m.illum >= 2 ? m.ks : glm::vec3(0.0f);
+  const int illum = m.illum.value_or(2);
+  material.specular = illum >= 2 ? m.ks : glm::vec3(0.0f);
   material.shininess = std::max(m.ns, 1.0f);
   material.emission = m.ke.value_or(glm::vec3(m.map_ke.file.empty() ? 0.0f : 1.0f));
 
-  const bool refracting_model = m.illum == 4 || m.illum == 6 || m.illum == 7;
+  const bool refracting_model = illum == 4 || illum == 6 || illum == 7;
   const bool lets_light_through = m.tf != glm::vec3(0.0f) || m.dissolve < 1.0f;
   if (refracting_model && m.ni > 1.0f && lets_light_through) {
     material.ior = m.ni;
     material.transmittance = m.tf != glm::vec3(0.0f) ? m.tf : glm::vec3(1.0f - m.dissolve);
-  } else if (m.illum == 3 || m.illum == 5) {
+  } else if (illum == 3 || illum == 5) {
     material.reflectance = m.ks;
-    material.fresnel = m.illum == 5;
+    material.fresnel = illum == 5;
   }
   return material;
 }

@@ -19,9 +19,10 @@ struct PlyProperty {
   PlyType type = PlyType::float32, count_type = PlyType::uint8;
   bool is_list = false;
 
-  // The factor that scales a colour of this type to 0 to 1.
+  // The factor that scales a colour of this type to 0 to 1. Whole numbers other than `ushort` are 0 to 255.
   [[nodiscard]] float color_scale() const {
-    return type == PlyType::uint8 ? 1.0f / 255.0f : type == PlyType::uint16 ? 1.0f / 65535.0f : 1.0f;
+    if (type == PlyType::float32 || type == PlyType::float64) return 1.0f;
+    return type == PlyType::uint16 ? 1.0f / 65535.0f : 1.0f / 255.0f;
   }
 };
 
@@ -47,6 +48,16 @@ class PlyFile {
   [[nodiscard]] const std::vector<std::string>& textures() const { return textures_; }
   // The next row, in the file's order: all rows of an element, then the next element's.
   [[nodiscard]] Expected<void> read_row(const PlyElement& element, PlyRow& row);
+  // Where the next row is read.
+  struct Place {
+    std::size_t at;
+    int line;
+  };
+  [[nodiscard]] Place place() const { return {at_, line_}; }
+  void go_to(const Place& place) {
+    at_ = place.at;
+    line_ = place.line;
+  }
   // Bytes after the last row that has been read, without blanks and zeros at the file's end.
   [[nodiscard]] std::size_t bytes_left() const;
   [[nodiscard]] Unexpected error(const std::string& what) const;

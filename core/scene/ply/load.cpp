@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <type_traits>
@@ -65,13 +66,7 @@ class PlyBuilder {
 
   Expected<MeshData> build() {
     read_texture();
-    for (const PlyElement& element : ply_.elements()) {
-      const Expected<void> read = element.name == "vertex"      ? vertices(element)
-                                  : element.name == "face"      ? faces(element)
-                                  : element.name == "tristrips" ? strips(element)
-                                                                : others(element);
-      if (!read) return Unexpected(read.error());
-    }
+    if (const Expected<void> read = elements(); !read) return Unexpected(read.error());
     if (const Expected<void> whole = check_rest(); !whole) return Unexpected(whole.error());
     leave_out_unfit();
     if (!faces_seen_ && !mesh_.positions.empty())
@@ -110,6 +105,38 @@ class PlyBuilder {
     replace(mesh_.colors, glm::vec4(1.0f));
     replace(mesh_.texcoords, glm::vec2(0.0f));
     if (unfit > 0) loading_.warnings.add({path_.string(), "element vertex", kUnfit, kUnfitLost, unfit});
+  }
+
+  // Faces that stand before the vertices are read after them.
+  Expected<void> elements() {
+    const std::vector<PlyElement>& all = ply_.elements();
+    const auto vertices_at = std::ranges::find(all, "vertex", &PlyElement::name);
+    std::vector<std::pair<const PlyElement*, PlyFile::Place>> waiting;
+    for (auto at = all.begin(); at != all.end(); ++at) {
+      const bool waits = vertices_at != all.end() && at < vertices_at && of_faces(*at);
+      if (waits) waiting.emplace_back(&*at, ply_.place());
+      if (const Expected<void> read = waits ? skip(*at) : element(*at); !read) return read;
+      if (at != vertices_at) continue;
+      const PlyFile::Place behind = ply_.place();
+      for (const auto& [faces, place] : waiting) {
+        ply_.go_to(place);
+        if (const Expected<void> read = element(*faces); !read) return read;
+      }
+      ply_.go_to(behind);
+    }
+    return {};
+  }
+  static bool of_faces(const PlyElement& e) { return e.name == "face" || e.name == "tristrips"; }
+
+  Expected<void> element(const PlyElement& e) {
+    return e.name == "vertex"      ? vertices(e)
+           : e.name == "face"      ? faces(e)
+           : e.name == "tristrips" ? strips(e)
+                                   : others(e);
+  }
+
+  Expected<void> skip(const PlyElement& element) {
+    return rows(element, [](const PlyRow&) -> Expected<void> { return {}; });
   }
 
   template <class Take>
@@ -179,6 +206,7 @@ class PlyBuilder {
   }
 
   Expected<void> faces(const PlyElement& element) {
+    if (element.count == 0) return {};
     const int indices = column(element, {"vertex_indices", "vertex_index"});
     if (indices < 0 || !element.properties[indices].is_list)
       return ply_.error("its faces have no list vertex_indices");
@@ -279,11 +307,12 @@ class PlyBuilder {
 
   [[nodiscard]] Unexpected no_such_vertex(double index) const {
     return ply_.error("a face names vertex " + shortest(index) + ", there are " +
-                      std::to_string(mesh_.positions.size()) + " so far: does its header fit its data?");
+                      std::to_string(mesh_.positions.size()) + ": does its header fit its data?");
   }
 
   // Strips, separated by -1, as scanned models have them.
   Expected<void> strips(const PlyElement& element) {
+    if (element.count == 0) return {};
     const int indices = column(element, {"vertex_indices", "vertex_index"});
     if (indices < 0) return ply_.error("its triangle strips have no list vertex_indices");
     faces_seen_ = true;
@@ -312,8 +341,7 @@ class PlyBuilder {
     if (element.count > 0 && !element.properties.empty())
       lost("element " + element.name, "elements other than vertices and faces are left out",
            "they are not drawn");
-    if (element.properties.empty()) return {};
-    return rows(element, [](const PlyRow&) -> Expected<void> { return {}; });
+    return element.properties.empty() ? Expected<void>{} : skip(element);
   }
 
   const std::filesystem::path& path_;
