@@ -24,6 +24,12 @@ bool is_picture(const fs::path& file) {
   return format && format->written;
 }
 
+// A folder that is read in part would compare less than was asked for.
+void throw_if_unread(const fs::path& folder, const std::error_code& error) {
+  if (error && error != std::errc::no_such_file_or_directory)
+    throw Exit(kBadScene, folder.string() + " cannot be read whole: " + error.message());
+}
+
 bool is_sequence(const std::string& name) {
   return !number_place(fs::path(name).filename().string()).empty();
 }
@@ -34,12 +40,13 @@ Files pictures_in(const fs::path& folder) {
   const auto add = [&](const std::string& name, const fs::path& file) {
     files.emplace(name, Found{name, file});
   };
-  std::error_code error;
+  std::error_code error, unknown;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error))
     if (is_picture(entry->path()) && entry->path().filename().string().front() != '.' &&
-        entry->is_regular_file(error))
+        entry->is_regular_file(unknown))
       add(entry->path().lexically_relative(folder).generic_string(), entry->path());
+  throw_if_unread(folder, error);
   return files;
 }
 
@@ -61,6 +68,7 @@ Files frames_of(const std::string& pattern) {
     const std::string key = std::string(kMostDigits - std::min(digits.size(), kMostDigits), '0') + digits;
     files.emplace(key, Found{digits, entry->path()});
   }
+  throw_if_unread(folder, error);
   return files;
 }
 

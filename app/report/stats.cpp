@@ -55,6 +55,15 @@ double frames_per_second(std::span<const FrameRecord> records) {
   return seconds > 0.0 ? (alone ? 1.0 : as_double(records.size() - 1)) / seconds : 0.0;
 }
 
+// From one delivered picture to the next, milliseconds; of a single frame, its own time.
+std::vector<double> times_of_frames(std::span<const FrameRecord> records) {
+  if (records.size() == 1) return {records.front().frame.ms()};
+  std::vector<double> times;
+  for (std::size_t i = 1; i < records.size(); ++i)
+    times.push_back(1e3 * (records[i].frame.end_s - records[i - 1].frame.end_s));
+  return times;
+}
+
 }  // namespace
 
 nlohmann::json percentiles(std::vector<double> values) {
@@ -100,7 +109,7 @@ nlohmann::json figures(std::span<const FrameRecord> records, const Settings& set
           {"size", {size.x, size.y}},
           {"bytes", bytes_json(traced)},
           {"latency", latency},
-          {"frame", spread(records, [](const FrameRecord& r) { return r.frame.ms(); })},
+          {"frame", {{"ms", percentiles(times_of_frames(records))}}},
           {"stages", stages},
           {"rays", rays_json(traced)},
           {"fps", frames_per_second(records)},

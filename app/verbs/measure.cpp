@@ -236,7 +236,8 @@ std::vector<Measured> runs_of(const Drawing& drawing, const MeasureOptions& opti
     Settings wanted = options.draw.settings;
     apply_preset(option, value, wanted);
     wanted.exchange = exchange;
-    runs.push_back({name, value_or_exit(drawing.resolve(wanted), kBadScene), {}});
+    runs.push_back(
+        {name, value_or_exit(drawing.resolve(wanted), broken_rule(wanted) ? kUsage : kBadScene), {}});
   };
   for (const Exchange exchange : {Exchange::sync, Exchange::pipelined, Exchange::reproject})
     for (const char* const design : {"1", "2"})

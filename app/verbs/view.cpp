@@ -41,7 +41,10 @@ int view(const ViewOptions& options) {
     throw Exit(
         kUsage,
         InputError{options.draw.plan_file, 0, std::string(rule->what), std::string(rule->remedy)}.message());
-  check_apart({{"the scene", options.draw.scene}}, {{"--stats-json", options.stats_json}});
+  check_apart({{"the scene", options.draw.scene},
+               {"--plan", options.draw.plan_file},
+               {"--environment", options.draw.environment}},
+              {{"--stats-json", options.stats_json}});
   if (!options.stats_json.empty()) check_writable(options.stats_json);
   const std::unique_ptr<gl::Window> window = open_window(options);
   bool is_loading = false;

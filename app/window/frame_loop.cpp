@@ -60,10 +60,25 @@ void FrameLoop::draw() {
     draw_next();
   } catch (const std::exception& error) {
     if (ends_the_window(error)) throw;
+    forget_slot();
     model_.messages.error("drawing", one_line(error.what()));
     newest_ = tried_;  // not tried again until something changes
     model_.idle = true;
   }
+}
+
+void FrameLoop::drain() {
+  try {
+    renderer_.drain();
+  } catch (...) {
+    forget_slot();
+    throw;
+  }
+}
+
+// A renderer that OpenGL has failed keeps no pictures.
+void FrameLoop::forget_slot() {
+  if (std::exchange(shows_slot_, false)) screen_.set_picture(nullptr);
 }
 
 void FrameLoop::draw_next() {
@@ -115,7 +130,7 @@ void FrameLoop::restart() {
 }
 
 FrameResult FrameLoop::draw_now(const Settings& settings) {
-  renderer_.drain();
+  drain();
   FrameRequest request = model_.request();
   request.settings = settings;
   FrameResult picture;
@@ -127,7 +142,7 @@ FrameResult FrameLoop::draw_now(const Settings& settings) {
 
 FrameResult FrameLoop::draw_transparent(Settings settings) {
   constexpr int kMostSamples = 64;
-  renderer_.drain();
+  drain();
   settings.background = Background{Background::Kind::transparent};
   settings.exchange = Exchange::sync;
   settings.spp = model_.gathers() ? std::clamp(accumulator_.samples(), 1, kMostSamples) : 1;
@@ -141,11 +156,9 @@ FrameResult FrameLoop::draw_transparent(Settings settings) {
   return picture;
 }
 
-void FrameLoop::add_gathered(FrameResult& picture) {
+void FrameLoop::add_gathered(const FrameRequest& request, FrameResult& picture) {
   picture.settings.spp = 1;
-  if (!model_.gathers() || accumulator_.samples() <= 1 ||
-      accumulator_.average().size() != picture.color.size())
-    return;
+  if (!model_.gathers() || accumulator_.samples() <= 1 || !accumulator_.is_of(request)) return;
   accumulator_.read_average(picture.color);
   picture.settings.spp = accumulator_.samples();
 }
@@ -156,6 +169,7 @@ void FrameLoop::deliver(Frame& frame) {
   present.begin_s = now_s();
   const Layer buffer = model_.applied.buffer;
   const gl::Texture& shown = chosen_buffer(frame);
+  shows_slot_ = &shown == &frame.texture();
   if (model_.wants_numbers()) read_numbers(frame);
   screen_.set_picture(&shown, buffer == Layer::picture || buffer == Layer::reflection);
   screen_.show();

@@ -25,7 +25,7 @@ class FrameLoop {
   [[nodiscard]] bool only_overlay_changed() const;
   [[nodiscard]] bool is_tracing() const { return renderer_.is_tracing(); }
 
-  void drain() { renderer_.drain(); }
+  void drain();
   // The newest frame is delivered again, to be shown in another way.
   void deliver_again() { again_ = true; }
   // The same request is another picture now.
@@ -35,14 +35,16 @@ class FrameLoop {
   // Draws the frame on a transparent background, with as many samples as are gathered, as far as that is
   // quick.
   [[nodiscard]] FrameResult draw_transparent(Settings settings);
-  // Gives the picture the mean of the gathered samples; its layers remain those of one sample.
-  void add_gathered(FrameResult& picture);
+  // Gives the picture of this request the mean of its gathered samples, if they are gathered; its layers
+  // remain those of one sample.
+  void add_gathered(const FrameRequest& request, FrameResult& picture);
 
  private:
   [[nodiscard]] FrameRequest next_request();
   [[nodiscard]] int most_samples() const;
   void draw_next();
   void settle();
+  void forget_slot();
   void deliver(Frame& frame);
   void read_numbers(const Frame& frame);
   [[nodiscard]] const gl::Texture& chosen_buffer(const Frame& frame);
@@ -59,6 +61,7 @@ class FrameLoop {
   std::optional<FrameRequest> newest_;  // the request drawn last
   std::optional<FrameRequest> tried_;   // the last one that the renderer was given
   int sample_ = 0;                      // the still camera's next
+  bool shows_slot_ = false;             // the picture that is shown is the renderer's
   bool again_ = false;                  // newest_ is to be delivered again
   bool settled_ = false;                // newest_ was delivered again since it was drawn
   Renderer renderer_;

@@ -37,6 +37,8 @@ void Input::handle_events(double patience_s, const std::function<void()>& perfor
 void Input::handle(const gl::WindowEvent& event) {
   const auto* const pointer = std::get_if<gl::PointerEvent>(&event);
   if (pointer) pointer_ = pointer->position;
+  // Whatever was opened since a key was pressed.
+  if (const auto* key = std::get_if<gl::KeyEvent>(&event); key && !key->down) navigation_.handle(*key);
   if (screen_.gui().handle(event)) return;
   if (pointer) navigation_.handle(*pointer, window_.pixels().y);
   if (const auto* key = std::get_if<gl::KeyEvent>(&event)) handle_key(*key);
@@ -73,11 +75,12 @@ void Input::handle_scroll(const gl::ScrollEvent& event) {
       glm::clamp(fixed - share / zoom.factor, glm::vec2(0.0f), glm::vec2(1.0f - 1.0f / zoom.factor));
 }
 
-// Keys that answer the question about unsaved edits. Until then other keys do nothing.
+// Keys that answer the question about unsaved edits, none of them one that flies. Until then other keys do
+// nothing.
 void Input::answer(const gl::KeyEvent& event) {
-  if (!event.down || event.repeated) return;
+  if (!event.down || event.repeated || !model_.leaving->is_asked) return;
   if (event.key == gl::kKeyEnter) model_.requested.push_back(Action::save_and_leave);
-  if (event.character == 'D') model_.requested.push_back(Action::leave_unsaved);
+  if (event.character == 'X') model_.requested.push_back(Action::leave_unsaved);
   if (event.key == gl::kKeyEscape) model_.requested.push_back(Action::stay);
 }
 

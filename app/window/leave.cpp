@@ -18,6 +18,8 @@ void Leave::request(const Leaving& to) {
 }
 
 void Leave::leave_now(const Leaving& to) {
+  agreed_ = model_.edits;
+  if (to.loaded) return;
   if (to.reload) return source_.reload();
   if (to.up_axis) return source_.turn_up(*to.up_axis);
   if (to.variant) return source_.choose_variant(*to.variant);

@@ -19,6 +19,9 @@ class Leave {
   // True if the user closes the window and there are no unsaved edits.
   [[nodiscard]] bool is_closed();
   void request(const Leaving& to);
+  // Whether a scene that was loaded may be shown. If it was edited meanwhile, a person is asked; `stay` drops
+  // what was loaded.
+  [[nodiscard]] bool may_show() const { return !model_.unsaved || model_.edits == agreed_; }
   void answer(Action action);
   // A file that could not be read is stepped over.
   void open_neighbour(int by);
@@ -32,6 +35,7 @@ class Leave {
   Model& model_;
   SceneSource& source_;
   std::function<void()> save_;
+  int agreed_ = 0;     // as many edits may be lost: Model::edits of the last answer
   std::string tried_;  // the file that was opened last and is not shown. Empty: none
 };
 

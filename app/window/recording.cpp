@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/cli/console.h"
 #include "app/window/model/export.h"
 #include "app/window/overlay/widgets.h"
 #include "core/base/clock.h"
@@ -61,7 +62,7 @@ void Recording::save_screenshot(const Settings& settings, bool with_overlay) {
   frames_.drain();
   const double begin_s = now_s();
   FrameResult picture = frames_.draw_now(settings);
-  frames_.add_gathered(picture);
+  frames_.add_gathered(model_.request(), picture);
   write_exr(name + ".exr", picture, {.render_s = now_s() - begin_s, .time_s = model_.playback.posed_s});
   screen_.save_next(name + ".png", with_overlay);
 }
@@ -98,7 +99,8 @@ void Recording::write(const Frame& frame) {
   if (!with_exr_ && !with_alpha) return;
   FrameResult picture = frame.read();
   picture.settings.spp = 1;
-  if (model_.samples > 1) frames_.add_gathered(picture);  // else the camera moved, and one sample is shown
+  if (model_.samples > 1)
+    frames_.add_gathered(frame.request(), picture);  // else the camera moved, and one sample is shown
   if (with_alpha)
     write_png(name + ".png",
               preview_with_alpha(picture.color, model_.applied.exposure_ev, model_.applied.tone_map));
@@ -176,7 +178,7 @@ void Recording::save_picture(Action action, const Settings& settings, const std:
   frames_.drain();
   const double begin_s = now_s();
   FrameResult picture = frames_.draw_now(settings);
-  frames_.add_gathered(picture);
+  frames_.add_gathered(model_.request(), picture);
   if (action == Action::save_exr) {
     write_exr(file, picture, {.render_s = now_s() - begin_s, .time_s = model_.playback.posed_s});
   } else {

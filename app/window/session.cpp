@@ -72,6 +72,7 @@ void Session::run() {
     advance();
     poll_scene();
     poll_files();
+    if (model_.leaving && !model_.leaving->is_asked) screen_.request_redraw();
     apply_changes();
     if (!model_.playback.playing && !input_.is_busy()) edits_.note();
     if (!window_.minimised()) draw();
@@ -104,7 +105,11 @@ void Session::poll_scene() {
   const bool was_loading = model_.is_loading();
   SceneLoader::News news = source_.poll();
   if (was_loading && !model_.is_loading()) screen_.request_redraw();
-  if (news.scene && can_draw(news.stats)) show_scene(news);
+  if (news.scene && can_draw(news.stats)) {
+    if (!leave_.may_show()) leave_.request({.file = news.scene->source, .loaded = true});
+    source_.keep(std::move(news));
+  }
+  if (source_.has_kept()) show_kept();
   if (news.tracer) model_.tracer = std::move(news.tracer);
   if (!news.environment) return;
   const std::string file = news.environment->source();
@@ -112,6 +117,15 @@ void Session::poll_scene() {
   model_.messages.clear("scene");
   for (const std::string& warning : news.warnings) model_.messages.warning(warning);
   model_.messages.hint(file + " is the scene's environment (Ctrl + Z takes it back)");
+}
+
+// Once a person has answered, if the scene before was edited while this one was loaded.
+void Session::show_kept() {
+  if (!leave_.may_show() && model_.leaving) return;
+  SceneLoader::News news = source_.take_kept();
+  if (leave_.may_show()) return show_scene(news);
+  leave_.arrived();
+  source_.reject();
 }
 
 // Where the settings cannot draw the scene, the verb ends, or the scene before stays.

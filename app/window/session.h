@@ -44,6 +44,7 @@ class Session {
   [[nodiscard]] double patience_s() const;
   void advance();
   void poll_scene();
+  void show_kept();
   [[nodiscard]] bool can_draw(const SceneStats& stats);
   [[nodiscard]] std::shared_ptr<const Environment> opened_environment() const;
   void show_scene(SceneLoader::News& news);

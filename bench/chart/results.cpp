@@ -67,6 +67,16 @@ bool is_results(const nlohmann::json& json) {
          json["points"].is_array() && std::all_of(json["points"].begin(), json["points"].end(), is_point);
 }
 
+// Names of files may be no UTF-8.
+std::string text_of(const nlohmann::json& json) {
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+// What is read back from the file.
+nlohmann::json as_written(const nlohmann::json& json) {
+  return nlohmann::json::parse(text_of(json));
+}
+
 // The property that differs between two runs, the scene before properties that depend on it; empty: none.
 std::string difference(const nlohmann::json& old_run, const nlohmann::json& run) {
   if (old_run.value("scene", nlohmann::json()) != run.at("scene")) return "scene";
@@ -123,11 +133,12 @@ nlohmann::json to_json(const PointFigures& f) {
   return json;
 }
 
-Expected<Results> Results::open(const std::filesystem::path& folder, const nlohmann::json& run,
+Expected<Results> Results::open(const std::filesystem::path& folder, const nlohmann::json& given_run,
                                 bool restart) {
   const std::filesystem::path file = folder / "results.json";
   std::error_code ignored;
-  nlohmann::json fresh{{"run", run}, {"points", nlohmann::json::array()}};
+  nlohmann::json fresh{{"run", as_written(given_run)}, {"points", nlohmann::json::array()}};
+  const nlohmann::json& run = fresh["run"];
   if (restart || !std::filesystem::exists(file, ignored)) return Results(folder, std::move(fresh));
   std::ifstream in(file);
   nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
@@ -166,8 +177,7 @@ void Results::add(const Configuration& c, const nlohmann::json& figures, const s
 void Results::write() {
   set_ratios();
   mark_fronts();
-  write_text(folder_ / "results.json",
-             json_.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  write_text(folder_ / "results.json", text_of(json_) + "\n");
   write_text(folder_ / "results.csv", csv());
 }
 

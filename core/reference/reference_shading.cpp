@@ -38,6 +38,8 @@ ReferenceGlass reference_glass(const ReferenceMaterial& m, double cos_in, double
 
 namespace {
 
+constexpr double kLeastSquare = 1e-24;  // shaders/shared/phong.glsl
+
 // Chiang, Li and Burley 2019: the light falls to zero as the facet turns away.
 double smoothing_at(const ReferenceSurface& s, const glm::dvec3& to_light) {
   const double g = std::min(1.0, glm::dot(s.n_geometric, to_light) / (glm::dot(s.n_shading, to_light) *
@@ -140,7 +142,7 @@ std::vector<ReferenceLight> round_light(const Light& light, const ReferenceSurfa
   // Radiance times solid angle. A light without falloff is treated as if at distance 1.
   double solid = 2.0 * std::numbers::pi * (1.0 - least) / (std::numbers::pi * square(sine));
   if (light.falloff == Light::Falloff::inverse_square && !directional)
-    solid *= window(light, distance) / std::max(std::max(square(distance), square(r)), 1e-12);
+    solid *= window(light, distance) / std::max(std::max(square(distance), square(r)), kLeastSquare);
   reference_cells(kReferencePoints, surface.p_world, [&](const glm::dvec2& cell) {
     const glm::dvec3 to_light = reference_beside(axis, 1.0 - cell.x * (1.0 - least), cell.y);
     const double along = glm::dot(to_light, offset);
@@ -166,7 +168,7 @@ std::vector<ReferenceLight> rectangle_light(const Light& light, const ReferenceS
     const glm::dvec3 to_light = offset / distance;
     double share = kShare * std::max(-glm::dot(to_light, glm::dvec3(light.direction)), 0.0);
     if (light.falloff == Light::Falloff::inverse_square)
-      share *= window(light, distance) / std::max(square(distance), 1e-12);
+      share *= window(light, distance) / std::max(square(distance), kLeastSquare);
     const double facing = -glm::dot(to_light, glm::dvec3(light.direction));
     const double area = glm::length(glm::cross(glm::dvec3(light.edge_u), glm::dvec3(light.edge_v)));
     add_point(surface, to_light, share * strength, &point,
@@ -192,7 +194,7 @@ std::vector<ReferenceLight> reference_lights(const Light& light, const Reference
   if (distance == 0.0 || distance > light.range) return point;
   const glm::dvec3 to_light = offset / distance;
   if (light.falloff == Light::Falloff::inverse_square)
-    radiance *= window(light, distance) / std::max(square(distance), 1e-12);
+    radiance *= window(light, distance) / std::max(square(distance), kLeastSquare);
   if (light.kind == Light::Kind::spot) radiance *= reference_cone_share(light, to_light);
   add_point(surface, to_light, radiance, &position, 0.0, terminator, point);
   return point;
@@ -222,7 +224,7 @@ std::optional<ReferenceMeeting> reference_meeting(const Light& light, const Refe
         std::abs(glm::dot(glm::cross(u, at), normal)) > 0.5 * area2)
       return {};
     const double density = square(t) / (towards * std::sqrt(area2));
-    const double share = towards * (falls ? window(light, t) / std::max(square(t), 1e-12) : 1.0);
+    const double share = towards * (falls ? window(light, t) / std::max(square(t), kLeastSquare) : 1.0);
     return ReferenceMeeting{share * density * strength, density, up_to(t)};
   }
   const double distance2 = glm::dot(offset, offset), r = light.radius, along = glm::dot(direction, offset);
@@ -234,7 +236,7 @@ std::optional<ReferenceMeeting> reference_meeting(const Light& light, const Refe
   const double own_square = inside ? 1.0 : square(r) / distance2;
   double radiance = 1.0 / (std::numbers::pi * own_square);
   if (falls)
-    radiance *= window(light, std::sqrt(distance2)) / std::max(std::max(distance2, square(r)), 1e-12);
+    radiance *= window(light, std::sqrt(distance2)) / std::max(std::max(distance2, square(r)), kLeastSquare);
   if (light.kind == Light::Kind::spot) radiance *= reference_cone_share(light, direction);
   return ReferenceMeeting{radiance * strength, 1.0 / (2.0 * std::numbers::pi * (1.0 - least)),
                           up_to(inside ? along + std::sqrt(chord2) : along - std::sqrt(chord2))};

@@ -59,8 +59,11 @@ bool lights_through_glass(const Settings& s, const SceneStats& stats) {
 
 // The limit loses nothing: beyond the useful depth every ray is below the cutoff.
 void fill_depth(const SceneStats& stats, Settings& s) {
-  if (!stats.mirrors) s.depth.value = 0;
-  if (s.throughput_cutoff >= kThroughputCutoff) s.depth.value = std::min<int>(s.depth, stats.useful_depth);
+  // Where light from other surfaces is sampled, rough surfaces of glTF's model send rays as mirrors do.
+  const bool lobes = s.indirect > 0 && s.glossy == Glossy::sampled && stats.microfacets;
+  if (!stats.mirrors && !lobes) s.depth.value = 0;
+  if (s.throughput_cutoff >= kThroughputCutoff && !lobes)
+    s.depth.value = std::min<int>(s.depth, stats.useful_depth);
   // Samples of an environment, of light from other surfaces and of the shadow catcher travel with mirrored
   // light, and so does light through glass.
   const bool samples = s.indirect > 0 || (stats.environment && s.environment_strength > 0.0f) ||

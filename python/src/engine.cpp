@@ -84,14 +84,17 @@ class PyEngine {
     (void)nb::module_::import_("numpy");
   }
   ~PyEngine() {
-    if (pid_ != getpid()) (void)engine_.release();  // its threads are in the parent
+    if (is_forked()) (void)engine_.release();
   }
 
   // Waits for the calls of other threads.
   void close() {
+    if (is_forked()) {  // a call of the parent may hold the lock for ever
+      (void)engine_.release();
+      return;
+    }
     const nb::gil_scoped_release released;
     const std::lock_guard lock(mutex_);
-    if (pid_ != getpid()) (void)engine_.release();
     engine_.reset();
   }
   [[nodiscard]] bool is_closed() const { return !engine_; }
@@ -166,9 +169,12 @@ class PyEngine {
  private:
   void check_open() const {
     if (!engine_) throw Error("this Engine is closed; create another one");
-    if (pid_ != getpid())
+    if (is_forked())
       throw Error("this Engine was created before the process was forked; create one in each process");
   }
+
+  // Its threads are in the parent.
+  [[nodiscard]] bool is_forked() const { return pid_ != getpid(); }
 
   int threads_;
   pid_t pid_ = getpid();

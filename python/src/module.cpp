@@ -21,12 +21,17 @@ NB_MODULE(_core, module) {
   const nb::exception<Error> error(module, "Error", PyExc_RuntimeError);
   nb::register_exception_translator(
       [](const std::exception_ptr& thrown, void* type) {
+        const auto raise = [type](const std::exception& failed) {
+          PyErr_SetObject(static_cast<PyObject*>(type), text(failed.what()).ptr());
+        };
         try {
           std::rethrow_exception(thrown);
+        } catch (const Error& wrong) {
+          raise(wrong);
         } catch (const EnvironmentError& failed) {
-          PyErr_SetString(static_cast<PyObject*>(type), failed.what());
+          raise(failed);
         } catch (const std::invalid_argument& wrong) {  // an EXR has no such layer
-          PyErr_SetString(static_cast<PyObject*>(type), wrong.what());
+          raise(wrong);
         }
       },
       error.ptr());

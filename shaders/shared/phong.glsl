@@ -27,6 +27,9 @@ struct Incident {
   real density;   // of the direction among all that are sampled, per steradian; 0: the light has no size
 };
 
+// Of a point's distance from a light, squared: keeps the inverse square within float's range.
+const float kLeastSquare = 1e-24f;
+
 SHARED real cone_share(LightParams light, vec3 to_light) {
   real cos_angle = dot(-to_light, light.direction);
   real width = light.cos_inner - light.cos_outer;
@@ -59,7 +62,7 @@ SHARED Incident incident_light(LightParams light, vec3 position, vec3 p_world) {
   real distance = length(offset);
   result.to_light = pick(distance > 0.0f, offset / distance, vec3(0.0f, 1.0f, 0.0f));
   result.radiance = within_range(light, distance, result.radiance);
-  if (light.inverse_square) result.radiance /= max(distance * distance, 1e-12f);
+  if (light.inverse_square) result.radiance /= max(distance * distance, kLeastSquare);
   if (light.kind == kLightSpot) result.radiance *= cone_share(light, result.to_light);
   if (has_sides(light)) result.radiance *= max(dot(-result.to_light, light.direction), 0.0f);
   return result;

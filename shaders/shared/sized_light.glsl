@@ -73,7 +73,7 @@ SHARED Incident ball_light(LightParams light, vec3 p_world, vec2 disc) {
   result.density = kOneByTwoPi / one_minus_cos;
   result.radiance = light.radiance * pick(inside, 4.0f, 2.0f / (1.0f + cosine));
   result.radiance = within_range(light, distance, result.radiance);
-  if (light.inverse_square) result.radiance /= max(max(square, r2), 1e-12f);
+  if (light.inverse_square) result.radiance /= max(max(square, r2), kLeastSquare);
   if (light.kind == kLightSpot) result.radiance *= cone_share(light, result.to_light);
   return result;
 }
@@ -125,7 +125,7 @@ SHARED Meeting meet_ball(LightParams light, vec3 p_world, vec3 direction) {
   m.incident.target = p_world + direction * pick(inside, along + chord, along - chord);
   m.incident.density = kOneByTwoPi / one_minus_cos;
   m.incident.radiance = within_range(light, sqrt(square), light.radiance) * pick(inside, 4.0f, 2.0f / (1.0f + cosine));
-  if (light.inverse_square) m.incident.radiance /= max(max(square, r2), 1e-12f);
+  if (light.inverse_square) m.incident.radiance /= max(max(square, r2), kLeastSquare);
   if (light.kind == kLightSpot) m.incident.radiance *= cone_share(light, direction);
   return m;
 }
@@ -146,7 +146,7 @@ SHARED Meeting meet_rectangle(LightParams light, vec3 p_world, vec3 direction) {
   m.incident.target = p_world + direction * distance;
   m.incident.density = distance * distance / (towards * sqrt(square));
   m.incident.radiance = within_range(light, distance, light.radiance) * towards;
-  if (light.inverse_square) m.incident.radiance /= max(distance * distance, 1e-12f);
+  if (light.inverse_square) m.incident.radiance /= max(distance * distance, kLeastSquare);
   return m;
 }
 

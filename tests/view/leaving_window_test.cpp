@@ -74,7 +74,7 @@ TEST_F(LeavingTest, AnotherFileIsOpenedAfterTheAnswer) {
   EXPECT_FALSE(shows("speedboat", 1.0));
   key("Right");
   EXPECT_TRUE(asks());
-  key("d");
+  key("x");
   EXPECT_TRUE(shows("speedboat"));
   EXPECT_FALSE(saved());
   key("Left");  // nothing is edited: no question

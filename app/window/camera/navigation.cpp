@@ -17,7 +17,9 @@ bool Navigation::handle(const gl::KeyEvent& event) {
   // Keys by their place, which is the same on any keyboard layout.
   const std::size_t i =
       event.key > 0 && event.key < 128 ? kFlightKeys.find(event.key) : std::string_view::npos;
-  if (i == std::string_view::npos || event.with.control || event.with.alt) return false;
+  if (i == std::string_view::npos) return false;
+  if (!event.down) keys_[i].held = false;  // whatever is held beside it
+  if (event.with.control || event.with.alt) return false;
   keys_[i].held = event.down;
   keys_[i].tapped = keys_[i].tapped || event.down;
   return true;

@@ -68,6 +68,8 @@ struct Leaving {
   // `file` is the shown scene's, to be read again: turned, or with this variant of its materials.
   std::optional<UpAxis> up_axis{};
   std::optional<std::string> variant{};
+  bool loaded = false;    // `file` is loaded already, and waits to be shown
+  bool is_asked = false;  // the question is on the screen: before that no key answers it
 };
 
 struct MaterialEdit {
@@ -98,6 +100,7 @@ struct Model {
   Scene scene;                                // with lights and materials as edited
   bool scene_edited = false;                  // the scene is not its file's
   bool unsaved = false;                       // its edits are in no file
+  int edits = 0;                              // made in the scene so far
   std::optional<Leaving> leaving;             // waits for an answer. Nothing: no question is asked
   SceneStats stats;                           // of the scene
   std::shared_ptr<const Tracer> tracer;       // null: nothing is traced, or the tree is not built yet

@@ -4,18 +4,23 @@
 #include "core/trace/tiles/aov.h"
 #include "core/trace/view/jitter.h"
 #include "core/trace/view/view_params.h"
+#include "hybrid/frame/samples.h"
 
 namespace pinocchio::app {
 namespace {
 
-// Exact settings. traced: with mirrored light.
-Settings settings_for(bool traced, int depth) {
-  Settings s;
+// The window's settings, exact. traced: with mirrored light.
+Settings settings_for(Settings s, bool traced, int depth) {
   apply_preset("mode", "raytrace", s);
   s.exchange = Exchange::sync;
   s.depth = depth;
   s.reflection = traced && depth > 0 ? ReflectionFormat::full : ReflectionFormat::none;
+  if (!traced) s.indirect = 0;
+  s.mask_scale = 1;
+  s.reflection_scale = 1;
+  s.spp = 1;
   s.tiles = s.reuse = false;
+  s.denoise = false;
   s.light_cutoff = 0.0f;
   s.threads = 1;
   return s;
@@ -41,7 +46,7 @@ std::optional<PixelReport> PixelInspector::report(Model& model, glm::ivec2 pixel
   if (!model.tracer) return std::nullopt;
   FrameRequest request = model.request();
   request.view.part = {pixel, pixel + 1};
-  request.settings = settings_for(true, model.settings.settings.depth);
+  request.settings = settings_for(model.drawn, true, model.settings.settings.depth);
   return report_of(std::move(request));
 }
 
@@ -56,6 +61,8 @@ bool PixelInspector::update(Model& model, glm::ivec2 pixel) {
 
 PixelReport PixelInspector::report_of(FrameRequest request) {
   const int depth = request.settings.depth;
+  const Settings exact = request.settings;
+  settle_environment(request.scene, exact);
   const std::vector<Light> lights = request.scene.lights;
   request.view = at_sample(request.view, 0);
   const FrameResult whole = draw(request);
@@ -74,13 +81,13 @@ PixelReport PixelInspector::report_of(FrameRequest request) {
   report.normal = surface.n_shading[0];
   if (!whole.reflection.pixels().empty()) report.mirrored = whole.reflection[0];
   for (std::uint64_t before = 0; report.bounces < depth; ++report.bounces) {
-    request.settings = settings_for(true, report.bounces + 1);
+    request.settings = settings_for(exact, true, report.bounces + 1);
     const std::uint64_t now = bounced(draw(request).record.rays);
     if (now == before) break;
     before = now;
   }
 
-  request.settings = settings_for(false, 0);
+  request.settings = settings_for(exact, false, 0);
   request.scene.lights.clear();
   report.ambient = glm::vec3(draw(request).color[0]);
   for (const Light& light : lights) {

@@ -19,6 +19,7 @@ std::string question(const Model& model, const Leaving& to) {
 
 void draw_question(Model& model, float scale) {
   if (!model.leaving) return;
+  model.leaving->is_asked = true;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float width = std::min(0.9f * display.x, 420.0f * scale);
   ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, 0.4f * display.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
@@ -32,7 +33,7 @@ void draw_question(Model& model, float scale) {
   if (button("Save (Enter)", "save the scene as glTF in a new file, then go on"))
     model.requested.push_back(Action::save_and_leave);
   ImGui::SameLine();
-  if (button("Drop edits (D)", "go on without saving")) model.requested.push_back(Action::leave_unsaved);
+  if (button("Drop edits (X)", "go on without saving")) model.requested.push_back(Action::leave_unsaved);
   ImGui::SameLine();
   if (button("Stay (Esc)", "keep the scene as it is")) model.requested.push_back(Action::stay);
   ImGui::End();

@@ -3,20 +3,62 @@
 #include <utility>
 
 #include "core/base/clock.h"
+#include "core/scene/pose/pose.h"
+#include "pinocchio/animation.h"
+#include "pinocchio/conversion.h"
+#include "pinocchio/nodes.h"
 
 namespace pinocchio::app {
+namespace {
+
+// By node: whether the scene's animation moves it.
+std::vector<bool> moving_nodes(const Scene& scene) {
+  if (!scene.animation || !scene.nodes) return {};
+  const std::vector<Node>& nodes = scene.nodes->nodes;
+  std::vector<bool> moving(nodes.size(), false);
+  for (const AnimatedNode& animated : scene.animation->nodes) moving.at(as_size(animated.node)) = true;
+  for (std::size_t i = 0; i < nodes.size(); ++i)  // parents come first
+    if (nodes[i].parent >= 0 && moving[as_size(nodes[i].parent)]) moving[i] = true;
+  return moving;
+}
+
+}  // namespace
+
+// Calls use(light, at rest, node) for the lights that the animation moves.
+template <class Use>
+void SceneEdits::for_each_moving(Scene& scene, Use use) const {
+  if (moving_.empty()) return;
+  const std::vector<Attached<Light>>& attached = scene.nodes->rest->lights;
+  const std::vector<std::size_t> places = attached_places(*scene.nodes->rest, scene).lights;
+  for (std::size_t i = 0; i < attached.size(); ++i)
+    if (places[i] != kGone && moving_.at(as_size(attached[i].node)))
+      use(scene.lights[places[i]], attached[i].at_rest, attached[i].node);
+}
+
+// Moving lights have their place at rest: their motion is no edit.
+std::vector<Light> SceneEdits::lights_at_rest() const {
+  if (moving_.empty()) return model_.scene.lights;
+  Scene scene = model_.scene;
+  for_each_moving(scene, [](Light& light, const Light& at_rest, int) {
+    place(Placement(glm::mat4(1.0f)), at_rest, light);
+  });
+  return scene.lights;
+}
 
 // Whether the overlay is hidden does not count as an edit.
 EditState SceneEdits::state() const {
   EditState state{
-      model_.settings,         model_.camera.camera(),   model_.scene.lights, model_.scene.mesh->materials,
+      model_.settings,         model_.camera.camera(),   lights_at_rest(),   model_.scene.mesh->materials,
       model_.scene.mesh->maps, model_.scene.environment, model_.parts.hidden};
   state.settings.overlay = true;
   return state;
 }
 
 void SceneEdits::begin() {
-  model_.lights_changed = model_.scene_edited = false;
+  model_.lights_changed = model_.scene_edited = model_.drops_environment = false;
+  model_.material_edit.reset();
+  if (as_size(model_.material) >= model_.scene.mesh->materials.size()) model_.material = 0;
+  moving_ = moving_nodes(model_.scene);
   history_.begin(state());
   saved();
 }
@@ -30,6 +72,7 @@ void SceneEdits::saved() {
 // Edits that were taken back need not be saved. An animation moves lights: they may differ without edits.
 void SceneEdits::note_edit() {
   model_.scene_edited = true;
+  ++model_.edits;
   model_.unsaved = model_.scene.animation || model_.scene.lights != saved_lights_ ||
                    model_.scene.mesh->materials != saved_materials_;
 }
@@ -72,8 +115,11 @@ void SceneEdits::restore(const std::optional<EditState>& state, const char* othe
     model_.parts.hidden = state->hidden;
     model_.parts.changed = true;
   }
-  if (model_.scene.lights == state->lights) return;
+  if (lights_at_rest() == state->lights) return;
   model_.scene.lights = state->lights;
+  for_each_moving(model_.scene, [this](Light& light, const Light& at_rest, int node) {
+    place(Placement(model_.scene.nodes->world_from(node)), at_rest, light);
+  });
   model_.lights_changed = true;
 }
 

@@ -29,6 +29,9 @@ class SceneEdits {
 
  private:
   [[nodiscard]] EditState state() const;
+  [[nodiscard]] std::vector<Light> lights_at_rest() const;
+  template <class Use>
+  void for_each_moving(Scene& scene, Use use) const;
   void restore(const std::optional<EditState>& state, const char* otherwise);
   void set_materials(std::vector<Material> materials, std::vector<MaterialMaps> maps);
 
@@ -36,6 +39,7 @@ class SceneEdits {
 
   Model& model_;
   EditHistory history_;
+  std::vector<bool> moving_;  // by node: the animation moves it. Empty: there is none
   // What the file holds.
   std::vector<Light> saved_lights_;
   std::vector<Material> saved_materials_;

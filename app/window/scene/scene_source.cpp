@@ -57,20 +57,21 @@ void SceneSource::open_unlimited() {
 void SceneSource::open_environment(const std::string& file) {
   if (!model_.has_scene()) return model_.messages.hint("open a scene first, then its environment");
   if (!model_.tracer) tree_settings_.reset();
-  pending_.reset();
+  reject();
   loader_.load_environment(file, options_.load.limit_bytes);
 }
 
 // The loader does one thing at a time: a tree that is being built is dropped.
 void SceneSource::load(const DrawOptions& options) {
   if (!model_.tracer) tree_settings_.reset();
+  reject();
   pending_ = options;
   loader_.load(options);
 }
 
 void SceneSource::cancel() {
   loader_.cancel();
-  pending_.reset();
+  reject();
   model_.messages.hint(!model_.has_scene() ? "nothing is open: drop a file on the window, or press F10"
                        : model_.tracer
                            ? "cancelled; the scene before stays"

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/window/model/model.h"
 #include "app/window/scene/file_watch.h"
@@ -35,9 +36,16 @@ class SceneSource {
   [[nodiscard]] ExitCode code() const { return model_.has_scene() ? kDone : code_; }
   [[nodiscard]] bool is_busy() const { return loader_.busy(); }
 
+  // Keeps the scene that was polled until it may be shown, or something else is loaded.
+  void keep(SceneLoader::News news) { kept_ = std::move(news); }
+  [[nodiscard]] bool has_kept() const { return kept_.has_value(); }
+  [[nodiscard]] SceneLoader::News take_kept() { return std::move(*std::exchange(kept_, std::nullopt)); }
   // The scene that was polled is in the window now, or is not going to be.
   void accept(const Scene& scene);
-  void reject() { pending_.reset(); }
+  void reject() {
+    pending_.reset();
+    kept_.reset();
+  }
   // Whether a file of the scene has changed.
   [[nodiscard]] bool has_changed(double now_s) { return watch_ && watch_->changed(now_s); }
 
@@ -54,7 +62,8 @@ class SceneSource {
   Model& model_;
   SceneLoader loader_;
   DrawOptions options_;
-  std::optional<DrawOptions> pending_;     // of the scene that is being read
+  std::optional<DrawOptions> pending_;  // of the scene that is being read, or is kept
+  std::optional<SceneLoader::News> kept_;
   std::optional<DrawOptions> refused_;     // for its memory
   std::optional<Settings> tree_settings_;  // of the tree that is built, or being built
   ExitCode code_ = kDone;

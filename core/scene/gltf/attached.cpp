@@ -82,11 +82,18 @@ Light light_of(const Json& json, const GltfNode& node, const glm::mat4& world) {
   return light;
 }
 
+// Ahead of the eye, so far that the direction does not drown in the rounding of large coordinates.
+glm::vec3 target_of(const glm::vec3& eye, const glm::vec3& direction) {
+  constexpr float kLeastShare = 1.0f / 1024.0f;  // of the coordinates: 6e-5 radians
+  const glm::vec3 size = glm::abs(eye);
+  return eye + std::max(1.0f, kLeastShare * std::max({size.x, size.y, size.z})) * direction;
+}
+
 Camera camera_of(const Json& json, const GltfNode& node, const glm::mat4& world) {
   Camera camera;
   camera.name = !node.name.empty() ? node.name : text_member(&json, "name");
   camera.eye = glm::vec3(world[3]);
-  camera.target = camera.eye + direction_of(world, {0, 0, -1});
+  camera.target = target_of(camera.eye, direction_of(world, {0, 0, -1}));
   camera.up = direction_of(world, {0, 1, 0});
   const Json* const extras = our_extras(node.json);
   const std::optional<glm::vec3> target = value_member<glm::vec3>(extras, "target");

@@ -9,6 +9,13 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
+// The light that a facet of glass mirrors, as rays that follow it have it (scatter_glass).
+[[gnu::noinline]] Vec mirrored_by_glass(const LaneSurface& s, const LaneMaterial& m, const LaneLobe& lobe) {
+  const Float eta = eta_of(s, m), cosine = clamp(dot(lobe.facet, s.to_viewer), 0.0f, 1.0f);
+  const Mask all = through_facet(s, m, lobe, eta) == Vec(0.0f);
+  return select(all, Vec(1.0f), glass_mirror(m, cosine, eta).mirrored) * lobe.unshadowed;
+}
+
 // The lobes that are worth a ray. `own`: the paths' throughput.
 [[gnu::noinline]] LaneLobe sample_lobe(const LaneSurface& s, const LaneMaterial& m, const Vec& own,
                                        const SampledPixel& sampling, Mask lanes, const Bounce& bounce) {
@@ -55,6 +62,8 @@ namespace {
   // Into the surface, by a normal that is not the triangle's: the direction's mirror image lies outside.
   const Mask inwards = ~(zero < outside);
   lobe.direction = select(inwards, direction - s.n_geometric * (two * outside), direction);
+  if (const Mask bare = glass & ~coated; bare.bits() != 0)
+    lobe.throughput = select(bare, mirrored_by_glass(s, m, lobe), lobe.throughput);
   lobe.density = select(inwards | glass, zero, density);
   lobe.rough = lobe.lanes & ~glass & (Float(kSharpAlpha) < alpha);
   lobe.counted = select(lobe.lanes, select(glass, Float(kAlone), one), zero);

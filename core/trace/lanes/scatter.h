@@ -154,15 +154,27 @@ inline void go_straight_on(const LaneSurface& s, const LaneMaterial& m, const Ve
          bounce.options->throughput_cutoff, *bounce.straight, media ? &media->here : nullptr, s.density);
 }
 
+// The direction that a facet of the lobe bends the light from the viewer to; zero: there is no way through.
+inline Vec through_facet(const LaneSurface& s, const LaneMaterial& m, const LaneLobe& lobe, Float eta) {
+  const Float zero(0.0f), two(2.0f);
+  const Vec passed = lobe.direction - s.n_shading * (two * dot(s.n_shading, lobe.direction));
+  const Vec bent = select(is_thin(m), passed, refract(-s.to_viewer, lobe.facet, Float(1.0f) / eta));
+  return select(dot(bent, s.n_geometric) < zero, bent, Vec(zero));
+}
+
+inline Float eta_of(const LaneSurface& s, const LaneMaterial& m) {
+  return select(s.leaving, Float(1.0f) / m.ior, m.ior);
+}
+
 // Glass: sharp, or about the lobe's facets where it is rough. An infinitely thin wall of glTF's model (ior 1)
 // mirrors by Schlick's formula, and lets light pass without bending it.
 template <bool kSampled>
 [[gnu::noinline]] void scatter_glass(const LaneSurface& s, const LaneMaterial& m, const Vec& own,
                                      const LaneLobe& lobe, const SampledPixel* sampling, Int pixel,
                                      Mask lanes, const Bounce& bounce, const LaneMedia* media) {
-  const Float zero(0.0f), one(1.0f), two(2.0f);
+  const Float zero(0.0f), one(1.0f);
   const float least = bounce.options->throughput_cutoff;
-  const Float eta = select(s.leaving, one / m.ior, m.ior);
+  const Float eta = eta_of(s, m);
   Float cos_in = clamp(dot(s.n_shading, s.to_viewer), 0.0f, 1.0f), left = one;
   Vec through = refracted(s, eta), direction = mirrored(s);
   Mask mirrors = lanes;
@@ -173,9 +185,7 @@ template <bool kSampled>
     const Mask rough = lobe.lanes & (Float(shared::kLeastAlpha) < m.ggx_alpha);
     if (rough.bits() != 0) {
       cos_in = select(rough, clamp(dot(lobe.facet, s.to_viewer), 0.0f, 1.0f), cos_in);
-      const Vec passed = lobe.direction - s.n_shading * (two * dot(s.n_shading, lobe.direction));
-      const Vec bent = select(is_thin(m), passed, refract(-s.to_viewer, lobe.facet, one / eta));
-      through = select(rough, select(dot(bent, s.n_geometric) < zero, bent, Vec(zero)), through);
+      through = select(rough, through_facet(s, m, lobe, eta), through);
       direction = select(rough, lobe.direction, direction);
       left = select(rough, lobe.unshadowed, left);
     }
@@ -184,12 +194,13 @@ template <bool kSampled>
   const Mask all = through == Vec(zero);
   const GlassMirror mirror = glass_mirror(m, cos_in, eta);
   const Vec mirror_share = select(all, Vec(one), mirror.mirrored);
-  // Rays through glass find what shadow rays do only where these pass glass.
+  // Rays through glass find what shadow rays do only where these pass glass. Straight ones pass also where
+  // the bent one is mirrored whole: there the mirrored ray finds it again.
   const Float found_through_glass = bounce.options->glass_shadows == GlassShadows::tinted ? s.density : zero;
   follow(s, through, own * (select(all, zero, one - mirror.kept) * left) * m.transmittance, pixel, lanes,
          least, *bounce.refracted, media ? &media->beyond : nullptr, found_through_glass);
   follow(s, direction, own * mirror_share * left, pixel, mirrors, least, *bounce.mirrored,
-         media ? &media->here : nullptr);
+         media ? &media->here : nullptr, select(all, found_through_glass, zero));
 }
 
 template <bool kSampled>

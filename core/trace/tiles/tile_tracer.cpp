@@ -172,9 +172,9 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
   ExtraColumns of_mirrored = extra;
   of_mirrored.way = plan_->beyond != nullptr;
   ExtraColumns of_straight = of_mirrored;
-  of_mirrored.density = plan_->further.lobes;
   of_straight.density =
       plan_->tints && plan_->environment && (plan_->further.lobes || plan_->out.indirect > 0);
+  of_mirrored.density = plan_->further.lobes || of_straight.density;
   next[kMirrored].make_room(rays, of_mirrored);
   next[kRefracted].make_room(rays, of_straight);
   next[kStraight].make_room(plan_->blends ? rays : 0, of_straight);

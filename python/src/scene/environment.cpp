@@ -13,7 +13,8 @@ namespace pinocchio::python {
 
 void warn_of(const Warnings& warnings) {
   for (const Warning& warning : warnings)
-    if (PyErr_WarnEx(PyExc_UserWarning, warning.message().c_str(), 1) != 0) throw nb::python_error();
+    if (PyErr_WarnFormat(PyExc_UserWarning, 1, "%U", text(warning.message()).ptr()) != 0)
+      throw nb::python_error();
 }
 
 void set_environment(PyScene& self, nb::handle value) {

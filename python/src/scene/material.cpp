@@ -77,7 +77,7 @@ void bind_material(nb::module_& module) {
           "None: "
           "only with backfaces='cull'.\n"
           "Raises Error if a colour or the texture has another shape, or a number is negative or not finite.")
-      .def_prop_ro("name", [](const TexturedMaterial& m) { return m.material.name; })
+      .def_prop_ro("name", [](const TexturedMaterial& m) { return text(m.material.name); })
       .def_prop_ro("diffuse", [](const TexturedMaterial& m) { return m.material.diffuse; })
       .def_prop_ro("specular", [](const TexturedMaterial& m) { return m.material.specular; })
       .def_prop_ro("shininess", [](const TexturedMaterial& m) { return m.material.shininess; })

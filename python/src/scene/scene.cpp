@@ -200,7 +200,7 @@ void bind_surroundings(SceneClass& bound) {
           "environment_strength and environment_rotation of a picture change it.\n"
           "Raises Error if the file cannot be read, or if light is negative or not finite.")
       .def_prop_ro(
-          "source", [](const PyScene& s) { return s.scene.source; },
+          "source", [](const PyScene& s) { return text(s.scene.source); },
           "The path of the file that the scene was loaded from.")
       .def_prop_ro(
           "variants", [](const PyScene& s) { return s.scene.variants; },

@@ -1,6 +1,10 @@
 // Arrays and text for Python.
 #pragma once
 
+#include <string>
+#include <string_view>
+#include <type_traits>
+
 #include "python/src/support/arguments.h"
 
 namespace pinocchio::python {
@@ -20,10 +24,21 @@ nb::ndarray<nb::numpy, T> array_that_owns(std::vector<From>&& values,
   return {reinterpret_cast<T*>(kept->data()), shape, owner};
 }
 
+// A file's text. What is no UTF-8 in it becomes U+FFFD, as the encoding of OBJ, MTL and paths is not known.
+inline nb::str text(std::string_view from) {
+  PyObject* const decoded =
+      PyUnicode_DecodeUTF8(from.data(), static_cast<Py_ssize_t>(from.size()), "replace");
+  if (!decoded) throw nb::python_error();
+  return nb::steal<nb::str>(decoded);
+}
+
 // As Python writes it: 'a text', 0.5, (1.0, 2.0, 3.0).
 template <class T>
 std::string shown(const T& value) {
-  return nb::repr(nb::cast(value)).c_str();
+  if constexpr (std::is_same_v<T, std::string>)
+    return nb::repr(text(value)).c_str();
+  else
+    return nb::repr(nb::cast(value)).c_str();
 }
 
 // A method that says why objects of the class do not pickle, and what to do instead.

@@ -18,7 +18,8 @@ bool is_main_thread() {
 
 Interrupt::Interrupt(Progress& progress) : progress_(progress), watching_(is_main_thread()) {
   sigaction(SIGINT, nullptr, &before_);
-  if (before_.sa_handler == SIG_IGN) watching_ = false;  // a shell starts background jobs this way
+  // A shell starts background jobs with SIG_IGN. With SIG_DFL the signal ends the process.
+  if (before_.sa_handler == SIG_IGN || before_.sa_handler == SIG_DFL) watching_ = false;
   if (!watching_) return;
   watched = &progress;
   struct sigaction action {};
