@@ -1,4 +1,6 @@
 """Scenes from arrays, trimesh and glTF; what moves; cameras by their matrix."""
+import os
+
 import numpy
 import pinocchio_renderer as pn
 import pytest
@@ -199,3 +201,15 @@ def test_the_memory_that_a_file_may_ask_for_is_limited(scenes):
     with pytest.raises(pn.Error, match="load_limit"):
         pn.load_scene(scenes / "windmill.glb", load_limit=1)
     assert pn.load_scene(scenes / "windmill.glb", load_limit=1000).triangles.shape[1] == 3
+
+
+# OBJ, MTL and paths say no encoding: Latin-1 here.
+def test_text_that_is_not_utf8_is_shown(tmp_path):
+    (tmp_path / "m.mtl").write_bytes(b"newmtl gr\xfcn\nKd 0 1 0\n")
+    (tmp_path / "a.obj").write_bytes(b"mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl gr\xfcn\nf 1 2 3\nusemtl fehlt_\xfc\nf 1 2 3\n")
+    with pytest.warns(UserWarning, match="fehlt_\ufffd"):
+        scene = pn.load_scene(tmp_path / "a.obj")
+    assert "gr\ufffdn" in [material.name for material in scene.materials]
+    assert "gr\ufffdn" in repr([material for material in scene.materials])
+    with pytest.raises(pn.Error, match="missing_\ufffd"):
+        pn.load_scene(os.fsdecode(bytes(tmp_path) + b"/missing_\xfc.obj"))

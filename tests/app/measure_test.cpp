@@ -35,6 +35,9 @@ TEST(Figures, PipelinedFramesASecondAreThoseDelivered) {
   EXPECT_NEAR(fps(pipelined_records(2)), 100.0, 1e-9);
   EXPECT_NEAR(fps(pipelined_records(1)), 1.0 / 0.03, 1e-9);
   EXPECT_EQ(fps({}), 0.0);
+  const nlohmann::json six = app::figures(pipelined_records(6), {}, {}, {8, 6}, nullptr);
+  EXPECT_NEAR(six["frame"]["ms"]["p50"].get<double>(), 10.0, 1e-9);
+  EXPECT_NEAR(six["latency"]["ms"]["p50"].get<double>(), 30.0, 1e-9);
 }
 
 // Reprojected, the last frame's own mask and reflection are not traced: it sent nothing.
@@ -182,6 +185,7 @@ TEST_F(MeasureTest, ComparesDesignsAndExchangesInOneRun) {
   EXPECT_EQ(names, (std::set<std::string>{"design 1 sync", "design 1 pipelined", "design 1 reproject",
                                           "design 2 sync", "design 2 pipelined", "raytrace", "raster"}));
   for (const std::string& name : names) EXPECT_NE(result.out.find(name), std::string::npos) << name;
+  EXPECT_EQ(run("measure" + scene("cornell") + kSmallRun + "--compare --tiles").exit_code, 2);
 }
 
 TEST_F(MeasureTest, SlidesMoveTheirBytesAtTheirSize) {

@@ -258,6 +258,27 @@ TEST(GlassShadows, ScenesWithoutGlassKeepTheirPixelsAndSendNoMore) {
   EXPECT_EQ(losses(*resolve(settings, analyze(glassy)), analyze(glassy)).size(), 2u);
 }
 
+// A box of glass on a matt floor in an even sky, seen from above: what comes to the floor comes from
+// everywhere, so all is as bright as without the box. What is mirrored whole within counts once.
+TEST(GlassShadows, ABoxOfGlassTakesNothingFromAnEvenSky) {
+  MeshData mesh;
+  MeshBuilder builder(mesh);
+  builder.use(matt(1.0f));
+  builder.quad({-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9});
+  builder.use(glass(1.5f, false));
+  builder.box({-1, 0.1f, -1}, {1, 2, 1});
+  Scene scene(std::move(mesh));
+  scene.ambient_light = glm::vec3(0.0f);
+  scene.environment = std::make_shared<const Environment>(Image<glm::vec3>({16, 8}, glm::vec3(1.0f)));
+  scene.cameras = {{"above", {3, 5, 4}, {0, 0.5f, 0}, {0, 1, 0}, 35.0f}};
+  Settings settings = ways().front().settings;
+  settings.spp = 64;
+  settings.indirect = 16;
+  settings.depth = 16;
+  const glm::dvec3 sum = sum_of(drawn(scene, settings).color);
+  EXPECT_NEAR(sum.g / (kGlassSize.x * kGlassSize.y), 1.0, 0.03);
+}
+
 // A ball under a dome of glass that takes nothing, in an even sky: as bright as without the dome, however the
 // light is found. What is counted twice is too bright.
 TEST(GlassShadows, EachLightIsCountedOnce) {

@@ -5,6 +5,7 @@
 #include "core/compare/figures.h"
 #include "core/image/rgb.h"
 #include "core/reference/reference.h"
+#include "core/scene/gltf/material_from_surface.h"
 #include "tests/support/draw.h"
 
 namespace pinocchio {
@@ -58,6 +59,12 @@ constexpr glm::ivec2 kVolumeSize{32, 24};
 
 glm::vec3 middle(const Image<glm::vec4>& picture) {
   return glm::vec3(picture.at(picture.width() / 2, picture.height() / 2));
+}
+
+glm::vec3 mean_of(const Image<glm::vec4>& picture) {
+  glm::dvec3 sum(0.0);
+  for (const glm::vec4& c : picture.pixels()) sum += glm::dvec3(c);
+  return glm::vec3(sum / as_double(picture.pixels().size()));
 }
 
 Image<glm::vec4> drawn(const Scene& scene, const char* mode, glm::ivec2 size = kVolumeSize) {
@@ -116,6 +123,32 @@ TEST(Volume, WhatLiesInsideIsSeenThroughWhatIsBeforeIt) {
 
 double rmse(const Image<glm::vec4>& a, const Image<glm::vec4>& b) {
   return error_figures(rgb_of(a).pixels(), rgb_of(b).pixels()).rmse;
+}
+
+// Rough glass mirrors a ball that shines: by Fresnel from outside, whole from inside where nothing passes.
+TEST(Volume, RoughGlassMirrorsLightsByFresnel) {
+  for (const bool inside : {false, true}) {
+    MeshData mesh;
+    mesh.materials = {material_from_surface(
+        {.metallic = 0.0f, .roughness = 0.4f, .transmission = 1.0f, .volume = true}, Shading::from_file)};
+    add_wall(mesh, 4, 0, 0);
+    if (inside)
+      for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+    Scene scene(std::move(mesh));
+    scene.ambient_light = glm::vec3(0.0f);
+    Light ball;
+    ball.position = {0, 4, 4};
+    ball.radius = 1.0f;
+    ball.intensity = 50.0f;
+    ball.falloff = Light::Falloff::inverse_square;
+    scene.lights = {ball};
+    scene.cameras = {{"slanting", {0, -4, 4}, {0, 0, 0}, {0, 0, 1}, 8.0f}};
+    Settings settings = by({{"mode", "raytrace"}, {"spp", "256"}});
+    const glm::vec3 ours = mean_of(draw_one(scene, {.settings = settings, .size = kVolumeSize}).color),
+                    exact = mean_of(precise(scene));
+    EXPECT_GT(exact.g, inside ? 1.0f : 0.05f);
+    EXPECT_NEAR(ours.g / exact.g, 1.0f, 0.03f) << inside;
+  }
 }
 
 // Seen from aside, with rays that are mirrored within.

@@ -1,5 +1,6 @@
 // The camera under mouse and keys: no display needed.
 #include "app/window/camera/camera_control.h"
+#include "app/window/camera/navigation.h"
 
 #include <gtest/gtest.h>
 
@@ -33,6 +34,18 @@ float height_seen(const Camera& camera, const glm::vec3& p) {
   const CameraAxes axes = camera_axes(camera);
   const glm::vec3 to = p - camera.eye;
   return glm::dot(to, axes.up) / glm::dot(to, axes.forward) / std::tan(glm::radians(0.5f * camera.fov_deg));
+}
+
+// A key that flies is held until it is released, whatever is held beside it by then.
+TEST(Navigation, AKeyIsReleasedWhateverIsHeldBesideIt) {
+  CameraControl control = control_at({0, 0, 5}, {0, 0, 0});
+  Navigation navigation(control);
+  EXPECT_TRUE(navigation.handle(gl::KeyEvent{.key = 'W', .character = 'W', .down = true, .with = {}}));
+  navigation.advance(0.1f);
+  EXPECT_TRUE(navigation.flying());
+  (void)navigation.handle(
+      gl::KeyEvent{.key = 'W', .character = 'W', .down = false, .with = {.control = true}});
+  EXPECT_FALSE(navigation.flying());
 }
 
 TEST(CameraControl, OrbitGoesRoundTheTargetAtItsDistance) {

@@ -137,6 +137,11 @@ TEST(LoadGltf, Cameras) {
   EXPECT_EQ(scene->cameras[1].projection, Projection::orthographic);
   EXPECT_EQ(scene->cameras[1].height, 3.0f);
   EXPECT_EQ(warnings.size(), 2u);  // no such camera, and one without a height
+  // Far out, where float's steps are half a unit.
+  json["nodes"][1]["translation"] = {5e6, 0, 0};
+  json["nodes"][1]["rotation"] = {0, 0.1478094f, 0, 0.9890159f};  // 17 degrees to the left
+  const Camera far = load(json)->cameras[0];
+  EXPECT_NEAR(glm::normalize(far.target - far.eye).x, -std::sin(glm::radians(17.0f)), 1e-4f);
   save_scene(*scene, own_file("cameras.gltf"));
   const Scene saved = load_scene(own_file("cameras.gltf")).value();
   ASSERT_EQ(saved.cameras.size(), 2u);

@@ -77,7 +77,6 @@ TEST(LoadImages, EachFormatGivesItsTexels) {
   }
 }
 
-// Cut off, or with bits turned: an error, or what is there of it. Never a crash, never more than the limit.
 // A height below zero says that the first row is the top one.
 TEST(LoadImages, ABmpMayBeginWithItsTopRow) {
   const auto bmp = [](std::int32_t height) {
@@ -94,10 +93,26 @@ TEST(LoadImages, ABmpMayBeginWithItsTopRow) {
   EXPECT_FALSE(decode(bmp(std::numeric_limits<std::int32_t>::min())));
 }
 
+// Of 24 bits, from the bottom row up.
+std::string tga_of(const Texture& texture) {
+  const glm::ivec2 size = texture.texels.size();
+  std::string bytes("\0\0\x02\0\0\0\0\0\0\0\0\0", 12);
+  for (const int side : {size.x, size.y})
+    for (const int shift : {0, 8}) bytes += static_cast<char>(side >> shift);
+  bytes += std::string("\x18\0", 2);
+  for (int y = size.y; y-- > 0;)
+    for (int x = 0; x < size.x; ++x)
+      for (const int c : {2, 1, 0}) bytes += static_cast<char>(texture.texels.at(x, y)[c]);
+  return bytes;
+}
+
+// Cut off, or with bits turned: an error, or what is there of it. Never a crash, never more than the limit.
 TEST(LoadImages, DamagedOnesAreErrorsOrSaySo) {
   Random random(7);
-  for (const std::string& whole :
-       {encode_png(gradient().texels), webp_of(gradient()), jpeg_of(gradient(), TJSAMP_420)}) {
+  EXPECT_EQ(decode(tga_of(gradient()))->damage, "");
+  EXPECT_EQ(largest_difference(decode(tga_of(gradient()))->texture, gradient()), 0);
+  for (const std::string& whole : {encode_png(gradient().texels), webp_of(gradient()),
+                                   jpeg_of(gradient(), TJSAMP_420), tga_of(gradient())}) {
     for (std::size_t cut = 0; cut + 16 < whole.size(); cut += 1 + whole.size() / 200) {
       const Expected<DecodedImage> image = decode(whole.substr(0, cut));
       EXPECT_TRUE(!image || !image->damage.empty()) << cut << " of " << whole.size();

@@ -46,6 +46,11 @@ TEST(LoadObj, SmoothingGroupsMakeNormals) {
   const Scene apart = load_text(roof + "s 1\nf 1 3 2\ns 2\nf 1 2 4\n");
   EXPECT_EQ(apart.mesh->positions.size(), 6u);
   EXPECT_NEAR(std::abs(apart.mesh->normals[0].y), std::sqrt(0.5f), 1e-6f);
+  // Also across a seam of texture coordinates.
+  const Scene seam = load_text(roof + "vt 0 0\nvt 1 1\ns 1\nf 1/1 3/1 2/1\nf 1/2 2/2 4/2\n");
+  ASSERT_EQ(seam.mesh->positions.size(), 6u);
+  EXPECT_NEAR(std::abs(seam.mesh->normals[0].y), 1.0f, 1e-6f);
+  EXPECT_EQ(seam.mesh->normals[3], seam.mesh->normals[0]);
   const Scene off = load_text(roof + "s off\nf 1 3 2\nf 1 2 4\n");
   EXPECT_EQ(off.mesh->normals[0], glm::vec3(0.0f));
 }
@@ -75,6 +80,16 @@ TEST(LoadObj, IlluminationModels) {
   EXPECT_FALSE(material(3).transmits());  // exporters write illum 7 for plain materials
   EXPECT_TRUE(material(4).fresnel);
   EXPECT_EQ(material(5).transmittance, glm::vec3(0.75f));
+  const std::string one = kTriangle + "usemtl m\nf 1 2 3\n", shiny = "newmtl m\nKs .4 .4 .4\nNs 50\n";
+  EXPECT_EQ(load_text(one, shiny).mesh->material_of(0).specular, glm::vec3(0.4f));  // no illum
+  EXPECT_EQ(load_text(one, shiny + "illum 1\n").mesh->material_of(0).specular, glm::vec3(0.0f));
+}
+
+TEST(LoadObj, AMaterialFileIsReadOnce) {
+  const Scene scene = load_text("mtllib test.mtl\nmtllib test.mtl\n" + kTriangle + "usemtl m\nf 1 2 3\n",
+                                "newmtl m\nKd 1 0 0\n");
+  EXPECT_EQ(scene.mesh->materials.size(), 2u);  // and the default one
+  EXPECT_EQ(scene.mesh->material_of(0).name, "m");
 }
 
 TEST(LoadObj, MissingMaterialsAndTexturesAreWarnings) {

@@ -36,6 +36,29 @@ TEST(LoadPly, AsciiWithColorsAndAQuad) {
   EXPECT_EQ(scene->mesh->normals[0], glm::vec3(0.0f));
 }
 
+// Colours that are whole numbers are 0 to 255. Faces before their vertices; none at all.
+TEST(LoadPly, AnyOrderAndAnyWholeNumbers) {
+  const std::string
+      format = "ply\nformat ascii 1.0\n",
+      vertices =
+          "element vertex 4\nproperty float x\n"
+          "property float y\nproperty float z\nproperty int red\nproperty int green\nproperty int blue\n",
+      face = "property list uchar int vertex_indices\n";
+  const Expected<Scene> scene =
+      load_text(format + "element face 2\n" + face + vertices +
+                "element other 1\nproperty int n\nend_header\n3 0 1 2\n3 0 2 3\n" + kRows + "7\n");
+  ASSERT_TRUE(scene) << scene.error().message();
+  ASSERT_EQ(scene->mesh->triangles.size(), 2u);
+  EXPECT_EQ(scene->mesh->triangles[1], glm::uvec3(0, 2, 3));
+  EXPECT_EQ(scene->mesh->colors[1], glm::vec4(0, 1, 0, 1));
+  EXPECT_NE(error_of(format + "element face 2\n" + face + vertices + "end_header\n3 0 1 2\n3 0 2 9\n" + kRows)
+                .find("test.ply:13: a face names vertex 9, there are 4"),
+            std::string::npos);
+  const Expected<Scene> cloud = load_text(format + vertices + "element face 0\nend_header\n" + kRows);
+  ASSERT_TRUE(cloud) << cloud.error().message();
+  EXPECT_GT(cloud->mesh->triangles.size(), 0u);  // of balls
+}
+
 // The same rows in bytes.
 std::string binary(bool big, const std::string& format) {
   std::string bytes = "ply\nformat " + format +

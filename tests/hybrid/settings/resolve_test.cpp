@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "core/scene/gltf/material_from_surface.h"
 #include "hybrid/exchange/channels.h"
 #include "pinocchio/nodes.h"
 #include "pinocchio/studio.h"
@@ -251,6 +252,19 @@ TEST(SceneStats, DepthThatIsWorthFollowing) {
   EXPECT_EQ(analyze(Scene(flat)).useful_depth, 1);  // no mirror sees another
   flat.positions[3].y = 0.01f;
   EXPECT_EQ(analyze(Scene(flat)).useful_depth, kMostBounces);
+}
+
+// With light from other surfaces rough ones mirror, too, although none of them is sharp.
+TEST(SceneStats, LobesAreFollowedWithoutMirrors) {
+  Scene scene = plate_over_floor();
+  for (MeshEdit mesh(scene); Material & m : mesh->materials)
+    m = material_from_surface({.metallic = 1.0f, .roughness = 0.5f}, Shading::from_file);
+  const SceneStats stats = analyze(scene);
+  Settings settings = by_mode("raytrace");
+  settings.depth = 3;
+  EXPECT_EQ(resolve(settings, stats)->depth, 0);
+  settings.indirect = 2;
+  EXPECT_EQ(resolve(settings, stats)->depth, 3);
 }
 
 // A mirror beside another in its plane, and turned out of it; lights and areas as of each pose alone.
