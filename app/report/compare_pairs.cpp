@@ -27,7 +27,8 @@ bool is_picture(const fs::path& file) {
 // A folder that is read in part would compare less than was asked for.
 void throw_if_unread(const fs::path& folder, const std::error_code& error) {
   if (error && error != std::errc::no_such_file_or_directory)
-    throw Exit(kBadScene, folder.string() + " cannot be read whole: " + error.message());
+    throw Exit(kBadScene, folder.string() + " cannot be read whole: " + error.message() +
+                              "; make it readable, or leave it out");
 }
 
 bool is_sequence(const std::string& name) {
