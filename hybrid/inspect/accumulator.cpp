@@ -23,6 +23,11 @@ void Accumulator::add(const Frame& frame) {
   ++samples_;
 }
 
+bool Accumulator::is_of(FrameRequest request) const {
+  settle_lights(request.scene, request.settings);  // as a frame's are
+  return samples_ > 0 && same_view(*of_, request);
+}
+
 void Accumulator::draw(const gl::Texture& picture) {
   const std::size_t next = 1 - newest_;
   fit(averages_[next], picture.size(), gl::kRgba32F);

@@ -29,9 +29,7 @@ class Accumulator {
 
   [[nodiscard]] int samples() const { return samples_; }
   // Whether there are samples, and they are this request's.
-  [[nodiscard]] bool is_of(const FrameRequest& request) const {
-    return samples_ > 0 && same_view(*of_, request);
-  }
+  [[nodiscard]] bool is_of(FrameRequest request) const;
   // The mean, linear RGBA; A: how much of the pixel is covered. samples() > 0.
   [[nodiscard]] const gl::Framebuffer& average() const { return averages_[newest_]; }
   // The same on the CPU; waits for the GPU.
