@@ -50,7 +50,7 @@ TEST_F(ApartTest, NoOutputIsAnInput) {
   expect_refused("render x.gltf --stats-json link.json");
   expect_refused("render x.gltf --stats-json hard.json");
   expect_refused("render x.gltf --path path.json --stats-json path.json");
-  expect_refused("view x.gltf --plan path.json --stats-json path.json");
+  expect_refused("view x.gltf --environment a.exr --stats-json a.exr");
   expect_refused("measure x.gltf --trace x.bin");
   expect_refused("compare a.exr b.exr --heatmap a.exr");
 }
