@@ -143,7 +143,8 @@ TEST(Volume, RoughGlassMirrorsLightsByFresnel) {
     ball.falloff = Light::Falloff::inverse_square;
     scene.lights = {ball};
     scene.cameras = {{"slanting", {0, -4, 4}, {0, 0, 0}, {0, 0, 1}, 8.0f}};
-    Settings settings = by({{"mode", "raytrace"}, {"spp", "256"}});
+    Settings settings = by({{"mode", "raytrace"}});
+    settings.spp = 256;
     const glm::vec3 ours = mean_of(draw_one(scene, {.settings = settings, .size = kVolumeSize}).color),
                     exact = mean_of(precise(scene));
     EXPECT_GT(exact.g, inside ? 1.0f : 0.05f);
