@@ -7,7 +7,7 @@ namespace pinocchio::app {
 namespace {
 
 constexpr std::string_view kFlightKeys = "WSDAEQ";  // forward, back, right, left, up, down
-constexpr int kLeft = 0, kRight = 1, kMiddle = 2;
+constexpr int kLeftButton = 0, kRightButton = 1, kMiddleButton = 2;
 constexpr float kPixelsAZoomStep = 20.0f;
 
 }  // namespace
@@ -33,9 +33,9 @@ bool Navigation::handle(const gl::ButtonEvent& event) {
   }
   if (drag_) return true;
   drag_button_ = event.button;
-  if (event.button == kLeft) drag_ = event.with.shift ? Drag::pan : Drag::orbit;
-  if (event.button == kMiddle) drag_ = event.with.control ? Drag::zoom : Drag::pan;
-  if (event.button == kRight) drag_ = Drag::zoom;
+  if (event.button == kLeftButton) drag_ = event.with.shift ? Drag::pan : Drag::orbit;
+  if (event.button == kMiddleButton) drag_ = event.with.control ? Drag::zoom : Drag::pan;
+  if (event.button == kRightButton) drag_ = Drag::zoom;
   return drag_.has_value();
 }
 
