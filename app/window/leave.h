@@ -19,8 +19,8 @@ class Leave {
   // True if the user closes the window and there are no unsaved edits.
   [[nodiscard]] bool is_closed();
   void request(const Leaving& to);
-  // Whether a scene that was loaded may be shown. If it was edited meanwhile, a person is asked; `stay` drops
-  // what was loaded.
+  // False: the scene in the window was edited while another one was loaded. A person is asked before that one
+  // is shown.
   [[nodiscard]] bool may_show() const { return !model_.unsaved || model_.edits == agreed_; }
   void answer(Action action);
   // A file that could not be read is stepped over.

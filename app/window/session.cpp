@@ -119,7 +119,7 @@ void Session::poll_scene() {
   model_.messages.hint(file + " is the scene's environment (Ctrl + Z takes it back)");
 }
 
-// Once a person has answered, if the scene before was edited while this one was loaded.
+// Shows the loaded scene, or drops it if a person wants to stay. Waits for the answer.
 void Session::show_kept() {
   if (!leave_.may_show() && model_.leaving) return;
   SceneLoader::News news = source_.take_kept();

@@ -67,12 +67,12 @@ bool is_results(const nlohmann::json& json) {
          json["points"].is_array() && std::all_of(json["points"].begin(), json["points"].end(), is_point);
 }
 
-// Names of files may be no UTF-8.
+// Bytes that are not UTF-8, as names of files may have, are replaced.
 std::string text_of(const nlohmann::json& json) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-// What is read back from the file.
+// The same json after writing and reading the file.
 nlohmann::json as_written(const nlohmann::json& json) {
   return nlohmann::json::parse(text_of(json));
 }

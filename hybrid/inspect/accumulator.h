@@ -28,7 +28,7 @@ class Accumulator {
   void reset() { samples_ = 0; }
 
   [[nodiscard]] int samples() const { return samples_; }
-  // Whether there are samples, and they are this request's.
+  // True if samples of this request's view were added.
   [[nodiscard]] bool is_of(FrameRequest request) const;
   // The mean, linear RGBA; A: how much of the pixel is covered. samples() > 0.
   [[nodiscard]] const gl::Framebuffer& average() const { return averages_[newest_]; }

@@ -59,7 +59,8 @@ bool lights_through_glass(const Settings& s, const SceneStats& stats) {
 
 // The limit loses nothing: beyond the useful depth every ray is below the cutoff.
 void fill_depth(const SceneStats& stats, Settings& s) {
-  // Where light from other surfaces is sampled, rough surfaces of glTF's model send rays as mirrors do.
+  // With --indirect, rough surfaces of glTF's model send mirrored rays too. They need the depth that was
+  // given.
   const bool lobes = s.indirect > 0 && s.glossy == Glossy::sampled && stats.microfacets;
   if (!stats.mirrors && !lobes) s.depth.value = 0;
   if (s.throughput_cutoff >= kThroughputCutoff && !lobes)

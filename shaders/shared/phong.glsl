@@ -27,7 +27,7 @@ struct Incident {
   real density;   // of the direction among all that are sampled, per steradian; 0: the light has no size
 };
 
-// Of a point's distance from a light, squared: keeps the inverse square within float's range.
+// The least squared distance to a light: 1 / d^2 stays within float's range.
 const float kLeastSquare = 1e-24f;
 
 SHARED real cone_share(LightParams light, vec3 to_light) {

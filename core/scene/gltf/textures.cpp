@@ -53,7 +53,7 @@ struct TexelRange {
   glm::vec4 least{1.0f}, most{1.0f};
 };
 
-// Of the mesh's textures. Many materials may use one: it is looked through once.
+// The ranges of the mesh's textures. Each texture is searched once, however many materials use it.
 class TexelRanges {
  public:
   explicit TexelRanges(const MeshData& mesh) : mesh_(mesh), known_(mesh.textures.size()) {}

@@ -48,7 +48,7 @@ class PlyFile {
   [[nodiscard]] const std::vector<std::string>& textures() const { return textures_; }
   // The next row, in the file's order: all rows of an element, then the next element's.
   [[nodiscard]] Expected<void> read_row(const PlyElement& element, PlyRow& row);
-  // Where the next row is read.
+  // The position of the next row in the file.
   struct Place {
     std::size_t at;
     int line;
