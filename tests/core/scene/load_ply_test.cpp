@@ -8,10 +8,14 @@
 namespace pinocchio {
 namespace {
 
-Expected<Scene> load_text(const std::string& text, Warnings* warnings = nullptr) {
+std::filesystem::path written(const std::string& text) {
   const std::filesystem::path path = own_file("test.ply");
   std::ofstream(path, std::ios::binary) << text;
-  return load_scene(path, warnings);
+  return path;
+}
+
+Expected<Scene> load_text(const std::string& text, Warnings* warnings = nullptr) {
+  return load_scene(written(text), warnings);
 }
 
 std::string error_of(const std::string& text) {
@@ -52,9 +56,10 @@ TEST(LoadPly, AnyOrderAndAnyWholeNumbers) {
   EXPECT_EQ(scene->mesh->triangles[1], glm::uvec3(0, 2, 3));
   EXPECT_EQ(scene->mesh->colors[1], glm::vec4(0, 1, 0, 1));
   EXPECT_NE(error_of(format + "element face 2\n" + face + vertices + "end_header\n3 0 1 2\n3 0 2 9\n" + kRows)
-                .find("test.ply:13: a face names vertex 9, there are 4"),
+                .find("test.ply:14: a face names vertex 9, there are 4"),
             std::string::npos);
-  const Expected<Scene> cloud = load_text(format + vertices + "element face 0\nend_header\n" + kRows);
+  const Expected<Scene> cloud =
+      load_scene(written(format + vertices + "element face 0\nend_header\n" + kRows), {.point_size = 0.1f});
   ASSERT_TRUE(cloud) << cloud.error().message();
   EXPECT_GT(cloud->mesh->triangles.size(), 0u);  // of balls
 }
