@@ -5,6 +5,7 @@
 #include "gl/context/current.h"
 
 #include <dlfcn.h>
+#include <link.h>
 
 #include <array>
 
@@ -68,11 +69,28 @@ struct OsmesaFunctions {
 };
 constexpr GLint kOsmesaType = 0x23;
 
+// How many libraries the process has loaded since it began.
+unsigned long long loaded_libraries() {
+  unsigned long long count = 0;
+  const auto first = [](dl_phdr_info* info, std::size_t, void* to) {
+    *static_cast<unsigned long long*>(to) = info->dlpi_adds;
+    return 1;
+  };
+  dl_iterate_phdr(first, &count);
+  return count;
+}
+
 // Null until the process has loaded the library. The handle is kept: a library with OpenGL in it is never
-// unloaded.
+// unloaded. Each frame asks: while no further library is loaded, one that was not there is not searched
+// again, as that opens a hundred paths.
 template <class Functions>
 const Functions* loaded() {
   static thread_local const Functions* found = nullptr;
+  static thread_local unsigned long long searched_at = 0;
+  if (found) return found;
+  const unsigned long long now = loaded_libraries();
+  if (now == searched_at) return nullptr;
+  searched_at = now;
   for (std::size_t i = 0; !found && i < Functions::kLibraries.size(); ++i)
     if (void* const library = dlopen(Functions::kLibraries[i], RTLD_LAZY | RTLD_NOLOAD)) {
       static Functions functions;

@@ -13,7 +13,10 @@ from test_examples import EXAMPLES, run
 
 def draw(*arguments, cwd):
     command = [sys.executable, str(EXAMPLES / "farm_ray.py"), *map(str, arguments)]
-    return subprocess.run(command, cwd=cwd, capture_output=True, text=True, timeout=300)
+    drawn = subprocess.run(command, cwd=cwd, capture_output=True, text=True, timeout=300)
+    if "The current node timed out during startup" in drawn.stderr:
+        pytest.skip("Ray did not start within its 30 s on this busy machine")
+    return drawn
 
 
 def shards(folder):
