@@ -236,8 +236,11 @@ TEST_F(EditingTest, AVariantOfTheMaterialsIsChosen) {
   const int row = widgets_at(200, 30, 100).at(0);
   const auto choose = [&](std::size_t line) {
     click(200, row);
-    pause_ms(300);
-    const std::vector<int> lines = runs(brightness(120, row + 14, 60, 90), row + 14, 120, 6, 20);
+    std::vector<int> lines;
+    (void)becomes([&] {
+      lines = runs(brightness(120, row + 14, 60, 90), row + 14, 120, 6, 20);
+      return lines.size() == 3;
+    });
     ASSERT_EQ(lines.size(), 3u);  // the usual one, and two
     click(150, lines[line]);
     xdo(at(700, 500));

@@ -55,8 +55,11 @@ class WidgetsTest : public WindowTest {
     click(kWidgetX, y);
     pause_ms(300);
     xdo(at(kWidgetX + 80, y));
-    const std::vector<int> lines = runs(brightness(kPanelX + 97, y + 12, 60, 560 - y), y + 12, 120, 6, 20);
-    ASSERT_GT(lines.size(), line);
+    std::vector<int> lines;
+    ASSERT_TRUE(becomes([&] {
+      lines = runs(brightness(kPanelX + 97, y + 12, 60, 560 - y), y + 12, 120, 6, 20);
+      return lines.size() > line;
+    }));
     click(kPanelX + 120, lines[line]);
   }
 };
