@@ -5,7 +5,7 @@
 
 #include "app/cli/console.h"
 #include "app/cli/errors.h"
-#include "app/window/camera/framing.h"
+#include "app/window/camera/standpoint.h"
 #include "core/base/clock.h"
 #include "gl/context/context.h"
 
@@ -257,14 +257,15 @@ void Session::perform_requests() {
     leave_.request({.file = model_.scene.source, .up_axis = axis});
   if (const auto variant = std::exchange(model_.variant_to_use, std::nullopt))
     leave_.request({.file = model_.scene.source, .variant = variant});
-  if (const int camera = std::exchange(model_.camera_to_show, -1); camera >= 0) show_camera(camera);
+  if (const int camera = std::exchange(model_.camera_to_show, -1); camera >= 0)
+    show_camera(model_, static_cast<std::size_t>(camera));
 }
 
 void Session::perform(Action action) {
   try {
     switch (action) {
       case Action::frame_all:
-        return frame_all();
+        return frame_all(model_, window_.pixels());
       case Action::reset_camera:
         model_.zoom = {};
         return model_.camera.set_camera(first_camera_);
@@ -299,6 +300,12 @@ void Session::perform(Action action) {
       case Action::screenshot_window:
       case Action::save_camera:
       case Action::save_scene:
+      case Action::save_glb:
+      case Action::save_gltf:
+      case Action::save_obj:
+      case Action::save_png:
+      case Action::save_transparent:
+      case Action::save_exr:
       case Action::print_command:
         return write_file(action);
       case Action::next_file:
@@ -313,13 +320,6 @@ void Session::perform(Action action) {
       case Action::save_as:
         model_.panels[Panel::save] = true;
         return;
-      case Action::save_glb:
-      case Action::save_gltf:
-      case Action::save_obj:
-      case Action::save_png:
-      case Action::save_transparent:
-      case Action::save_exr:
-        return write_file(action);
       case Action::full_screen:
         return window_.set_full_screen(!window_.full_screen());
       case Action::play:
@@ -376,28 +376,6 @@ void Session::close_something() {
   }
   if (window_.full_screen()) return window_.set_full_screen(false);
   leave_.request({});
-}
-
-void Session::frame_all() {
-  const glm::vec2 size(window_.pixels());
-  model_.zoom = {};
-  model_.camera.frame_all(size.x / std::max(size.y, 1.0f));
-  model_.wants_tree = true;
-  if (!model_.tracer)
-    return model_.messages.hint("walls may be in the way: the tree is being built; press F again");
-  model_.camera.set_camera(before_walls(model_.camera.camera(), model_.camera.interest(), *model_.tracer));
-}
-
-void Session::show_camera(std::size_t number) {
-  if (!model_.has_scene()) return;
-  const std::vector<Camera>& cameras = model_.scene.cameras;
-  if (number < cameras.size()) {
-    model_.camera.set_camera(cameras[number]);
-    model_.messages.hint("camera " + cameras[number].name, 3.0);
-  } else {
-    model_.messages.hint("the scene has " + std::to_string(cameras.size()) +
-                         (cameras.size() == 1 ? " camera" : " cameras"));
-  }
 }
 
 }  // namespace pinocchio::app

@@ -57,8 +57,6 @@ class Session {
   void perform(Action action);
   void write_file(Action action);
   void close_something();
-  void frame_all();
-  void show_camera(std::size_t number);
 
   gl::Window& window_;
   Preferences preferences_;

@@ -81,8 +81,8 @@ unsigned long long loaded_libraries() {
 }
 
 // Null until the process has loaded the library. The handle is kept: a library with OpenGL in it is never
-// unloaded. Each frame asks: while no further library is loaded, one that was not there is not searched
-// again, as that opens a hundred paths.
+// unloaded. Each frame asks, and a search opens a hundred paths: what was not found is searched again only
+// after the process has loaded another library.
 template <class Functions>
 const Functions* loaded() {
   static thread_local const Functions* found = nullptr;

@@ -159,11 +159,28 @@ TEST_F(MeasureTest, SamplesAreCountedInTheirPicture) {
         worked[event["args"]["frame"].get<int>() / samples] += event["dur"].get<double>() / 1e3;
     }
     EXPECT_EQ(traced, samples * one["frames"].get<int>()) << options;
-    // Each picture took longer than what was done for it.
+    // Each picture's latency is at least the time of all its stages.
     std::vector<double> least;
     for (const auto& [picture, milliseconds] : worked) least.push_back(milliseconds);
     EXPECT_GT(several["latency"]["ms"]["p50"], app::percentiles(least)["p50"]) << options;
   }
+}
+
+TEST_F(MeasureTest, LibrariesAreNotSearchedForInEachFrame) {
+  const auto searches = [this](const std::string& frames) {
+    const CommandResult ran =
+        run("measure" + scene("cornell") + "--size 40x30 --mode hybrid --frames " + frames, "LD_DEBUG=libs");
+    EXPECT_EQ(ran.exit_code, 0);
+    const std::string searched = "find library=";  // what the dynamic loader prints
+    int count = 0;
+    for (std::size_t at = ran.err.find(searched); at != std::string::npos;
+         at = ran.err.find(searched, at + 1))
+      ++count;
+    return count;
+  };
+  const int of_few = searches("4");
+  EXPECT_GT(of_few, 0);
+  EXPECT_EQ(searches("12"), of_few);
 }
 
 TEST_F(MeasureTest, TheProcessorIsNotBusyForLongerThanTheRun) {
