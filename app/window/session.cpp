@@ -5,7 +5,7 @@
 
 #include "app/cli/console.h"
 #include "app/cli/errors.h"
-#include "app/window/camera/standpoint.h"
+#include "app/window/standpoint.h"
 #include "core/base/clock.h"
 #include "gl/context/context.h"
 

@@ -1,4 +1,4 @@
-#include "app/window/camera/standpoint.h"
+#include "app/window/standpoint.h"
 
 #include <algorithm>
 
