@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "app/window/screen.h"
-#include "app/window/wireframe.h"
+#include "app/window/screen/screen.h"
+#include "app/window/screen/wireframe.h"
 #include "hybrid/inspect/accumulator.h"
 #include "hybrid/inspect/inspect_pass.h"
 #include "pinocchio/renderer.h"

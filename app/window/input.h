@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "app/window/camera/navigation.h"
-#include "app/window/screen.h"
+#include "app/window/screen/screen.h"
 
 namespace pinocchio::app {
 

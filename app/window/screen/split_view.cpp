@@ -1,4 +1,4 @@
-#include "app/window/split_view.h"
+#include "app/window/screen/split_view.h"
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "app/window/overlay/gui.h"
-#include "app/window/pace.h"
-#include "app/window/split_view.h"
+#include "app/window/screen/pace.h"
+#include "app/window/screen/split_view.h"
 #include "hybrid/inspect/histogram_pass.h"
 #include "hybrid/inspect/present_pass.h"
 

@@ -1,4 +1,4 @@
-#include "app/window/wireframe.h"
+#include "app/window/screen/wireframe.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "app/window/screen.h"
+#include "app/window/screen/screen.h"
 
 #include <algorithm>
 #include <utility>

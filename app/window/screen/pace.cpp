@@ -1,4 +1,4 @@
-#include "app/window/pace.h"
+#include "app/window/screen/pace.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
