@@ -23,6 +23,34 @@ void let_vertex_colors_count(MeshData& mesh) {
     if (colored[i]) make_maps(mesh, mesh.materials[i]).vertex_colors = true;
 }
 
+// Whether a vertex of the triangles with these maps has an alpha below 1.
+bool has_faint_vertices(const MeshData& mesh, std::size_t maps) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const std::uint32_t material = mesh.triangle_materials[i];
+    if (material >= mesh.materials.size() || mesh.materials[material].maps != as_int(maps)) continue;
+    for (int c = 0; c < 3; ++c)
+      if (const std::uint32_t vertex = mesh.triangles[i][c];
+          vertex < mesh.colors.size() && !(mesh.colors[vertex].a >= 1.0f))
+        return true;
+  }
+  return false;
+}
+
+// Sets least_alpha of all materials.
+void find_least_alpha(MeshData& mesh) {
+  const auto of_texels = [&](const MaterialMaps& maps) {
+    if (!maps.alpha.used()) return 1.0f;
+    if (as_size(maps.alpha.texture) >= mesh.textures.size()) return 0.0f;
+    return as_float(mesh.textures[as_size(maps.alpha.texture)].least[maps.alpha_channel]) / 255.0f;
+  };
+  for (std::size_t i = 0; i < mesh.maps.size(); ++i) {
+    MaterialMaps& maps = mesh.maps[i];
+    const bool is_asked = maps.alpha_mode != AlphaMode::opaque;
+    maps.least_alpha =
+        is_asked && !(maps.vertex_colors && has_faint_vertices(mesh, i)) ? of_texels(maps) : 0.0f;
+  }
+}
+
 // The bounds of the vertices that triangles have. Indices out of range are skipped: check_scene reports them.
 Bounds bounds_of(const MeshData& mesh) {
   constexpr std::size_t kAtOnce = std::size_t{1} << 17;  // triangles
@@ -53,6 +81,7 @@ MaterialMaps& make_maps(MeshData& mesh, Material& material) {
 Mesh::Mesh(MeshData data) : MeshData(std::move(data)), bounds_(bounds_of(*this)) {
   let_vertex_colors_count(*this);
   finish_textures(*this, nullptr);
+  find_least_alpha(*this);
 }
 
 Mesh::Mesh(const Mesh& other) : MeshData(other), bounds_(other.bounds_) {}

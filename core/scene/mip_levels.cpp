@@ -193,6 +193,8 @@ void finish(Texture& texture, const Needed& needed) {
       writer.append(level);
     }
   }
+  texture.least = glm::u8vec4(255);
+  for (const glm::u8vec4& texel : texture.texels.pixels()) texture.least = glm::min(texture.least, texel);
   texture.least_green = {};
   if (needed.roughness) find_least_green(texture);
   texture.blocks = TexelBlocks(texture.texels, writer.levels());

@@ -99,7 +99,7 @@ LaneMapsOf::LaneMapsOf(const Mesh& mesh) {
       });
       ++lane_maps.count;
     }
-    if (is_readable(mesh, maps.alpha) && maps.alpha_mode != AlphaMode::opaque) {
+    if (is_readable(mesh, maps.alpha) && maps.effective_alpha_mode() != AlphaMode::opaque) {
       TexturePlace& place = places_.emplace_back(texture_place(mesh, maps.alpha));
       place.textures = &textures_.emplace_back(lane_texture(mesh, maps.alpha, false, ~0u));
       place.count = 1;

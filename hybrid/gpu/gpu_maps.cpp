@@ -87,7 +87,8 @@ MapTexels map_texels(const Mesh& mesh, const MaterialMaps& m, const LevelTable& 
       .more = glm::vec4(s.ior, s.transmission, flag(s.volume), flag(s.unlit)),
       .strengths = glm::vec4(m.normal_scale, m.occlusion.used() ? m.occlusion_strength : 0.0f,
                              flag(m.from_gltf) + flag(m.from_gltf && m.coat_is_mapped), m.alpha_channel),
-      .alpha_rule = glm::vec4(m.alpha_mode, m.alpha_factor, m.alpha_cutoff, flag(m.vertex_colors)),
+      .alpha_rule =
+          glm::vec4(m.effective_alpha_mode(), m.alpha_factor, m.alpha_cutoff, flag(m.vertex_colors)),
       .layers = layer_texels(s.layers)};
   const auto uses = m.uses();
   for (std::size_t i = 0; i < kUses; ++i) {

@@ -62,13 +62,21 @@ struct MaterialMaps {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_factor = 1.0f;
   float alpha_cutoff = 0.5f;
+  // Of a finished mesh: no point's texel times its vertex colour is below it in alpha. 0: not known.
+  float least_alpha = 0.0f;
 
+  // The mode, or opaque where alpha lets nothing pass at any point: rays do not ask for it then.
+  [[nodiscard]] AlphaMode effective_alpha_mode() const {
+    const float least = alpha_factor * least_alpha;
+    return least >= (alpha_mode == AlphaMode::mask ? alpha_cutoff : 1.0f) ? AlphaMode::opaque : alpha_mode;
+  }
   // Whether rays pass unchanged through some points of the material.
   [[nodiscard]] bool has_holes() const {
-    return alpha_mode == AlphaMode::mask ||
-           (alpha_mode == AlphaMode::blend && (alpha.used() || vertex_colors || alpha_factor <= 0.0f));
+    const AlphaMode mode = effective_alpha_mode();
+    return mode == AlphaMode::mask ||
+           (mode == AlphaMode::blend && (alpha.used() || vertex_colors || alpha_factor <= 0.0f));
   }
-  [[nodiscard]] bool blends() const { return alpha_mode == AlphaMode::blend; }
+  [[nodiscard]] bool blends() const { return effective_alpha_mode() == AlphaMode::blend; }
   // Whether textures change the reflectance and transmittance of a dielectric.
   [[nodiscard]] bool maps_dielectric() const {
     return specular.used() || specular_color.used() || transmission.used();

@@ -127,7 +127,7 @@ class ObjWriter {
       constexpr const char* kChannels[] = {" -imfchan r", " -imfchan g", " -imfchan b", " -imfchan m"};
       add_texture("map_d", kChannels[maps.alpha_channel], maps.alpha, lost, text);
       add_number(text, "d", maps.alpha_factor);
-      if (!maps.blends())
+      if (maps.alpha_mode == AlphaMode::mask)
         lost("its alpha cutoff is left out", "its holes are drawn half transparent, by their alpha");
     }
     if (maps.metallic_roughness.used())

@@ -75,8 +75,9 @@ struct Bounce {
   std::uint32_t eye_medium = kNoMedium;  // the material around the camera
   // Light goes straight on through glass: shadow rays carry it, and the medium that they start in.
   bool tints = false;
-  bool of_matt = false;     // the rays were sent by matt surfaces, which look for the environment themselves
-  bool adds_light = false;  // lights that cast none add theirs to `radiance`, shadow rays carry it
+  bool light_later = false;  // shadow rays carry no light yet: it is asked for where they pass glass
+  bool of_matt = false;      // the rays were sent by matt surfaces, which look for the environment themselves
+  bool adds_light = false;   // lights that cast none add theirs to `radiance`, shadow rays carry it
   // Whether anything is sampled; the whole picture's pixel that is (0, 0) in the queues; the distance of the
   // picture's samples in pixels; the first dimension of the rays' generation.
   bool samples = false;
@@ -104,6 +105,7 @@ struct Bounce {
   SampledPoint* points = nullptr;  // a tile's pixels: the surfaces, for the filter; null: not wanted
   bool lights_alone = false;       // an earlier step had the surfaces of these rays, and other lights
 
+  [[nodiscard]] bool tints_at_once() const { return tints && !light_later; }
   // True if lights that are too faint get no shadow ray.
   [[nodiscard]] bool cuts_light() const { return visible && options->light_cutoff > 0.0f; }
 };

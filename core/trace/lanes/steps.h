@@ -113,7 +113,7 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
       lit = lit & ~(plain & (most_light(m, incident, s, counted) < Float(bounce.options->light_cutoff)));
     if (lit.bits() == 0) continue;
     Vec term(Float(0.0f));
-    if (bounce.adds_light || apart || bounce.tints) {
+    if (bounce.adds_light || apart || bounce.tints_at_once()) {
       term = reflected_light(m, incident, s.n_shading, s.to_viewer, lit, counted);
       if (mapped != 0) term = select(Float(0.0f) < dot(s.n_shading, incident.to_light), term, Vec(0.0f));
     }
@@ -213,7 +213,8 @@ inline void add_prefiltered_sky(const Bounce& bounce, const LaneSurface& s, cons
 template <bool kSampled>
 void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
   const bool colors = bounce.adds_light || bounce.adds_ambient || bounce.environment || bounce.prefiltered ||
-                      bounce.diffuse || bounce.sampled != 0 || bounce.points || bounce.tints || bounce.lobes;
+                      bounce.diffuse || bounce.sampled != 0 || bounce.points || bounce.tints_at_once() ||
+                      bounce.lobes;
   const bool cuts = bounce.cuts_light();
   const bool reads_material = colors || bounce.mirrored || cuts;
   const MapsWanted wanted(

@@ -1,5 +1,8 @@
 // The rays of a tile beyond the visible points: mirrored and refracted rays, the environment, light from
 // other surfaces.
+#include <algorithm>
+#include <cassert>
+
 #include "core/trace/rays/passed_surfaces.h"
 #include "core/trace/tiles/tile_tracer.h"
 
@@ -9,10 +12,7 @@ namespace pinocchio {
 void TileTracer::follow() {
   std::size_t rays = next_diffuse_.size;
   for (const RayQueue& queue : rays_) rays += queue.size;
-  if (!reflects_ && rays > 0) {
-    reflects_ = true;
-    begin_light();
-  }
+  if (rays > 0) begin_light();
   follow_mirrors(0);
   for (int bounce = 1; bounce <= plan_->out.indirect && next_diffuse_.size > 0; ++bounce) {
     follow_diffuse(bounce);
@@ -102,8 +102,9 @@ void TileTracer::fire_reflected(RayQueue& queue, float reach, const RayQueue& wa
       reflected_[queue.pixel[i]] += glm::vec4(queue.light[0][i], queue.light[1][i], queue.light[2][i], 0.0f);
 }
 
-// Sets blocked_ for each shadow ray.
-void TileTracer::ask_occluded(const RayQueue& queue, float reach) {
+// Sets blocked_ for each shadow ray. later: where the rays are from visible points and carry no light yet,
+// the one that they go to.
+void TileTracer::ask_occluded(const RayQueue& queue, float reach, const BounceLight* later) {
   const TilePlan& plan = *plan_;
   counts_.shadow += queue.size;
   if (!plan.passed_by_shadows.any()) {
@@ -112,10 +113,41 @@ void TileTracer::ask_occluded(const RayQueue& queue, float reach) {
   }
   const PassedSurfaces passed{plan.passed_by_shadows.columns(), plan.job.tracer.steps().lanes_in_holes,
                               &plan.shadows.scene};
-  if (plan.tints)
-    tinted_.trace(plan.job.tracer, plan.shadows, passed, queue, reach, blocked_.data());
-  else
+  if (!plan.tints) {
     plan.job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data(), &passed);
+    return;
+  }
+  RayQueue& on = tinted_.begin(plan.job.tracer, passed, queue, reach, blocked_.data());
+  if (later && on.size > 0) light_rays(*later, queue, on);
+  tinted_.go_on(plan.job.tracer, plan.shadows, reach, blocked_.data());
+}
+
+// Sets the light of some of the queue's shadow rays, which start at visible points. `pixel` is a ray's place
+// in the queue.
+void TileTracer::light_rays(BounceLight from, const RayQueue& queue, RayQueue& rays) {
+  later_.make_room(rays.size);
+  std::size_t point = 0;  // the queue has the order of seen_
+  for (std::size_t k = 0; k < rays.size; ++k) {
+    const std::uint32_t pixel = queue.pixel[rays.pixel[k]];
+    while (seen_.pixel[point] != pixel) ++point;
+    copy_ray(seen_, point, later_, k);
+    later_.pixel[k] = pixel;
+  }
+  later_.size = rays.size;
+  of_later_.make_room(rays.size, {.medium = extra_columns().medium});
+  ways_up_of_later_.make_room(rays.size);
+  from.queue = 0;
+  Bounce step = plan_->visible;
+  use_queues(step);
+  if (plan_->model) step.footprint = &seen_footprint_;
+  step.lights = &from;
+  step.light_count = 1;
+  step.shadow = &of_later_;
+  step.ways_up = &ways_up_of_later_;
+  step.light_later = false;
+  plan_->job.tracer.steps().bounce(step, later_);
+  assert(of_later_.size == rays.size);
+  for (int axis = 0; axis < 3; ++axis) std::copy_n(of_later_.light[axis], rays.size, rays.light[axis]);
 }
 
 // A ray that would start behind something, after it was lifted, counts as blocked. Holes are ignored: the way
@@ -133,6 +165,7 @@ void TileTracer::block_by_ways_up(const RayQueue& up, int generation) {
 // Adds the light of the last shadow rays that passed glass. It is traced light at visible points, too: a bit
 // of the mask has no shades.
 void TileTracer::add_light_through_glass(const RayQueue& queue, glm::vec4* to) {
+  if (!tinted_.lit().empty()) begin_light();
   for (const TintedShadows::Lit& lit : tinted_.lit())
     if (blocked_[lit.ray] == 1) to[queue.pixel[lit.ray]] += glm::vec4(lit.light, 0.0f);
 }

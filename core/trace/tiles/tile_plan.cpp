@@ -208,6 +208,9 @@ void TilePlan::plan_visible() {
   visible_lights = visible_groups(further_lights, out, visible.adds_ambient);
   lights_in_reflection = std::ranges::any_of(visible_lights, &LightGroup::in_reflection);
   visible = lit_by(visible_lights.front(), visible);
+  visible.light_later = visible.tints && !visible.adds_ambient && !visible.adds_light &&
+                        !lights_in_reflection && !visible.environment && !visible.prefiltered &&
+                        !visible.lobes && !out.sampled && out.indirect == 0;
 }
 
 }  // namespace pinocchio

@@ -49,8 +49,8 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile, const K
   known_ = known;
   if (rays_miss_scene()) known_.sees_nothing = true;
   counts_ = {};
-  reflects_ = plan.out.sampled != nullptr;
-  if (reflects_) begin_light();
+  reflects_ = false;
+  if (plan.out.sampled) begin_light();
   TileTimes times;
   Lap lap;
   start();
@@ -86,6 +86,8 @@ bool TileTracer::rays_miss_scene() const {
 
 // Nothing is mirrored yet, and nothing seen by the filter.
 void TileTracer::begin_light() {
+  if (reflects_) return;
+  reflects_ = true;
   const std::size_t layers = plan_->sampled_layers();
   std::fill_n(reflected_.begin(), (1 + layers) * kPixels, glm::vec4(0.0f));
   std::fill_n(reflected_.begin() + kSampledPixels + kLampPixels, layers * kPixels, glm::vec4(0.0f));
@@ -239,9 +241,8 @@ void TileTracer::light_visible() {
   if (plan_->out.sampled) {
     step.sampled = kSampledPixels;
     step.points = points_.data();
-  } else if (step.environment || step.prefiltered || step.lobes || step.tints ||
+  } else if (step.environment || step.prefiltered || step.lobes || step.tints_at_once() ||
              plan_->lights_in_reflection) {
-    reflects_ = true;
     begin_light();
   }
   bounce(step, 0, seen_, rays_, direct_.data(), true);
@@ -274,7 +275,7 @@ void TileTracer::fire_shadows(const LightGroup& group, int generation, glm::vec4
     if (blocked_.size() < queue.size + kQueuePad) blocked_.resize(2 * queue.size + kQueuePad);
     const float reach = light.params.kind == shared::kLightDirectional ? kInfinity : 1.0f;
     if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
-    ask_occluded(queue, reach);
+    ask_occluded(queue, reach, visible && plan_->visible.light_later ? &light : nullptr);
     block_by_ways_up(ways_up_[as_size(light.queue)], generation);
     if (visible)  // without a branch, which would be predicted badly at the edges of shadows
       for (std::size_t i = 0; i < queue.size; ++i)

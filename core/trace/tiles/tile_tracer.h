@@ -77,7 +77,8 @@ class TileTracer {
   void fire_shadows(const LightGroup& group, int generation, glm::vec4* radiance);
   void fire_at_environment(int generation);
   void fire_reflected(RayQueue& queue, float reach, const RayQueue& ways_up, int generation);
-  void ask_occluded(const RayQueue& queue, float reach);
+  void ask_occluded(const RayQueue& queue, float reach, const BounceLight* later = nullptr);
+  void light_rays(BounceLight from, const RayQueue& queue, RayQueue& rays);
   void block_by_ways_up(const RayQueue& up, int generation);
   void add_light_through_glass(const RayQueue& queue, glm::vec4* to);
   void write_reflection();
@@ -96,6 +97,7 @@ class TileTracer {
   RayQueue diffuse_, next_diffuse_;
   std::array<RayQueue, kLightGroup> shadow_, ways_up_;
   RayQueue sky_, sky_ways_up_, lobe_lights_;
+  RayQueue later_, of_later_, ways_up_of_later_;  // points whose shadow rays pass glass; those rays
   // By shadow ray. 0: nothing is in the way; 1: something, through which light may come (tinted_); 3: no
   // light comes.
   std::vector<std::uint8_t> blocked_;

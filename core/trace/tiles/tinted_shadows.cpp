@@ -12,6 +12,11 @@ glm::vec3 vector_at(float* const (&columns)[3], std::size_t i) {
   return {columns[0][i], columns[1][i], columns[2][i]};
 }
 
+// Whether the rays' light has a position, where it stays.
+bool stays(float reach) {
+  return reach == 1.0f;
+}
+
 }  // namespace
 
 bool passes_light(const Mesh& mesh, const Material& material, const TraceOptions& options) {
@@ -26,18 +31,21 @@ bool tints_shadows(const Mesh& mesh, const TraceOptions& options) {
 
 // Most rays meet nothing, or something that stops them: the others are walked, and those whose light is in
 // the medium with them.
-void TintedShadows::start(const RayQueue& rays, bool ends, std::uint8_t* blocked) {
+RayQueue& TintedShadows::begin(const Tracer& tracer, const PassedSurfaces& passed, const RayQueue& rays,
+                               float reach, std::uint8_t* blocked) {
+  tracer.occluded(rays.columns(reach), rays.size, blocked, &passed);
   on_.make_room(rays.size, {.medium = rays.medium != nullptr});
   is_tinted_.clear();
   lit_.clear();
   for (std::size_t i = 0; i < rays.size; ++i) {
-    const bool absorbed = ends && rays.medium && rays.medium[i] != kNoMedium;
+    const bool absorbed = stays(reach) && rays.medium && rays.medium[i] != kNoMedium;
     if (blocked[i] != kMayPass && (blocked[i] != 0 || !absorbed)) continue;
     blocked[i] = 1;
     copy_ray(rays, i, on_, on_.size);
     on_.pixel[on_.size++] = as_uint32(i);
     is_tinted_.push_back(absorbed ? 1 : 0);
   }
+  return on_;
 }
 
 // Keeps the rays that have neither reached their light nor lost all of theirs.
@@ -63,15 +71,11 @@ void TintedShadows::keep_going(const std::uint32_t* holes, float least, std::uin
   on_.size = kept;
 }
 
-void TintedShadows::trace(const Tracer& tracer, const Bounce& bounce, const PassedSurfaces& passed,
-                          const RayQueue& rays, float reach, std::uint8_t* blocked) {
-  const bool ends = reach == 1.0f;  // a light that has a position stays there
-  tracer.occluded(rays.columns(reach), rays.size, blocked, &passed);
-  start(rays, ends, blocked);
+void TintedShadows::go_on(const Tracer& tracer, const Bounce& bounce, float reach, std::uint8_t* blocked) {
   for (int layer = 0; on_.size > 0 && layer < kMostLayers; ++layer) {
     tracer.closest_hits(on_.columns(reach), on_.size, on_.triangle);
     const std::uint32_t* const holes = met_.find(tracer, bounce, on_);
-    tracer.steps().cross_glass(bounce, holes, ends, on_);
+    tracer.steps().cross_glass(bounce, holes, stays(reach), on_);
     keep_going(holes, bounce.options->throughput_cutoff, blocked);
   }
 }

@@ -28,16 +28,18 @@ class TintedShadows {
     glm::vec3 light;
   };
 
-  // blocked[i] = 0 where shadow ray i meets nothing but holes, and does not end in a medium; else 1. A ray
-  // ends where its light is below the options' cutoff. bounce: the step that the rays are from.
-  void trace(const Tracer& tracer, const Bounce& bounce, const PassedSurfaces& passed, const RayQueue& rays,
-             float reach, std::uint8_t* blocked);
+  // blocked[i] = 0 where nothing takes light from shadow ray i, else 1. Returns the rays that may pass
+  // something, for go_on(); `pixel` is the ray's place in `rays`. Their light may be set until then.
+  RayQueue& begin(const Tracer& tracer, const PassedSurfaces& passed, const RayQueue& rays, float reach,
+                  std::uint8_t* blocked);
+  // blocked[i] = 0 also where ray i meets nothing but holes, and does not end in a medium. A ray ends where
+  // its light is below the options' cutoff. bounce: the step that the rays are from.
+  void go_on(const Tracer& tracer, const Bounce& bounce, float reach, std::uint8_t* blocked);
 
-  // What the last trace() found.
+  // What the last go_on() found.
   [[nodiscard]] std::span<const Lit> lit() const { return lit_; }
 
  private:
-  void start(const RayQueue& rays, bool ends, std::uint8_t* blocked);
   void keep_going(const std::uint32_t* holes, float least, std::uint8_t* blocked);
 
   RayQueue on_;                          // `pixel` is the ray's place in the queue that it is from

@@ -129,8 +129,9 @@ void GltfMaterialWriter::add_maps(const Material& m, const MaterialMaps& maps, J
     pbr["baseColorTexture"] = texture(maps.base_color.used() ? maps.base_color : maps.alpha, image);
   if (maps.alpha_mode != AlphaMode::opaque) {
     pbr["baseColorFactor"][3] = maps.alpha_factor;
-    json["alphaMode"] = maps.blends() ? "BLEND" : "MASK";
-    if (!maps.blends()) json["alphaCutoff"] = maps.alpha_cutoff;
+    const bool blends = maps.alpha_mode == AlphaMode::blend;
+    json["alphaMode"] = blends ? "BLEND" : "MASK";
+    if (!blends) json["alphaCutoff"] = maps.alpha_cutoff;
   }
   for (const GltfTexture& row : kGltfTextures) {
     const TextureUse& use = maps.*row.use;
