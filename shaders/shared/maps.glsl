@@ -65,18 +65,18 @@ SHARED Layers mapped_layers(READ_ONLY(Layers) plain, READ_ONLY(MapTexels) texels
 }
 
 // The ray's point moves by `spread` and then along `direction` back to the plane of triangle (a, a + ab, a + ac):
-// how far that is along ab and along ac, both times z (ray differentials: Igehy 1999).
+// how far that is along ab and along ac, both to be multiplied by z (ray differentials: Igehy 1999).
 SHARED vec3 moved_on_triangle(vec3 spread, vec3 direction, vec3 ab, vec3 ac) {
   vec3 n = cross(ab, ac);
   real towards = dot(n, direction);
   real square = dot(n, n);
-  vec3 p = spread - direction * (dot(n, spread) / towards);
+  vec3 p = spread - direction * (dot(n, spread) * (1.0f / towards));
   return pick(towards == 0.0f || square == 0.0f, vec3(0.0f, 0.0f, 1.0f),
-              vec3(dot(cross(p, ac), n), dot(cross(ab, p), n), square));
+              vec3(dot(cross(p, ac), n), dot(cross(ab, p), n), 1.0f / square));
 }
 
 // The change of a texture coordinate by that move.
-SHARED vec2 uv_change(vec3 moved, vec2 uv_ab, vec2 uv_ac) { return (moved.x * uv_ab + moved.y * uv_ac) / moved.z; }
+SHARED vec2 uv_change(vec3 moved, vec2 uv_ab, vec2 uv_ac) { return moved.z * (moved.x * uv_ab + moved.y * uv_ac); }
 
 // n changed by a normal map's texel (0 to 1). All vectors lie on the side that the triangle's
 // vertex normals show. `tangent` is the vertices', side_of_v the side of the bitangent; where that is 0, the tangent is
@@ -85,17 +85,18 @@ SHARED vec3 mapped_normal(vec3 n, vec3 tangent, real side_of_v, vec3 ab, vec3 ac
                           float scale) {
   boolean given = side_of_v != 0.0f;
   real det = uv_ab.x * uv_ac.y - uv_ac.x * uv_ab.y;
-  vec3 along_u = pick(given, tangent, (ab * uv_ac.y - ac * uv_ab.y) / det);
-  vec3 against_v = (ab * uv_ac.x - ac * uv_ab.x) / det;
+  real inverse = 1.0f / det;
+  vec3 along_u = pick(given, tangent, (ab * uv_ac.y - ac * uv_ab.y) * inverse);
+  vec3 against_v = (ab * uv_ac.x - ac * uv_ab.x) * inverse;
   real side = pick(pick(given, side_of_v, dot(cross(n, along_u), against_v)) < 0.0f, -1.0f, 1.0f);
   vec3 t = along_u - n * dot(n, along_u);
   real square = dot(t, t);
-  t /= sqrt(square);
+  t *= 1.0f / sqrt(square);
   vec3 bitangent = side * cross(n, t);
   vec3 local = (texel * 2.0f - vec3(1.0f)) * vec3(scale, scale, 1.0f);
   vec3 mapped = t * local.x + bitangent * local.y + n * local.z;
   real length2 = dot(mapped, mapped);
-  return pick((given || det != 0.0f) && square > 0.0f && length2 > 1e-12f, mapped / sqrt(length2), n);
+  return pick((given || det != 0.0f) && square > 0.0f && length2 > 1e-12f, mapped * (1.0f / sqrt(length2)), n);
 }
 
 const int kAlphaOpaque = 0;

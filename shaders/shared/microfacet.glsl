@@ -198,7 +198,7 @@ struct LobeLight {
 
 SHARED vec3 halfway(vec3 to_viewer, vec3 to_light) {
   vec3 sum = to_viewer + to_light;
-  return sum / sqrt(max(dot(sum, sum), 1e-20f));
+  return sum * (1.0f / sqrt(max(dot(sum, sum), 1e-20f)));
 }
 
 // m: parameters for one viewer. Lobe and coat have the widths `alpha` and `alpha_of_coat`.
@@ -252,7 +252,7 @@ SHARED vec3 visible_normal(vec3 to_viewer, real alpha, vec2 disc) {
   real y = (1.0f - s) * sqrt(rest) + s * disc.y;
   vec3 h = t * disc.x + u * y + v * sqrt(max(rest - y * y, 0.0f));
   vec3 stretched = vec3(h.x * alpha, h.y * alpha, max(h.z, 1e-6f));
-  return stretched / sqrt(dot(stretched, stretched));
+  return stretched * (1.0f / sqrt(dot(stretched, stretched)));
 }
 
 // What one light adds where it reaches the point of those parameters (viewed_from): where `lit` holds, the light is before

@@ -60,7 +60,7 @@ SHARED Incident incident_light(LightParams light, vec3 position, vec3 p_world) {
   }
   vec3 offset = position - p_world;
   real distance = length(offset);
-  result.to_light = pick(distance > 0.0f, offset / distance, vec3(0.0f, 1.0f, 0.0f));
+  result.to_light = pick(distance > 0.0f, offset * (1.0f / distance), vec3(0.0f, 1.0f, 0.0f));
   result.radiance = within_range(light, distance, result.radiance);
   if (light.inverse_square) result.radiance /= max(distance * distance, kLeastSquare);
   if (light.kind == kLightSpot) result.radiance *= cone_share(light, result.to_light);

@@ -17,7 +17,7 @@ SHARED vec3 irradiance_at(SkyIrradiance sky, vec3 n) {
 SHARED vec3 lobe_axis(vec3 n, vec3 mirrored, real alpha) {
   real share = (1.0f - alpha) * (sqrt(1.0f - alpha) + alpha);
   vec3 axis = n + (mirrored - n) * share;
-  return axis / sqrt(max(dot(axis, axis), 1e-12f));
+  return axis * (1.0f / sqrt(max(dot(axis, axis), 1e-12f)));
 }
 
 // GGX's alpha of a lobe as wide as Phong's highlight, whose exponent is about a quarter of Blinn's.

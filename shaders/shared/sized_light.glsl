@@ -56,7 +56,7 @@ SHARED Incident ball_light(LightParams light, vec3 p_world, vec2 disc) {
   vec3 offset = light.position - p_world;
   real square = dot(offset, offset);
   real distance = sqrt(square);
-  vec3 axis = pick(distance > 0.0f, offset / distance, vec3(0.0f, 1.0f, 0.0f));
+  vec3 axis = pick(distance > 0.0f, offset * (1.0f / distance), vec3(0.0f, 1.0f, 0.0f));
   real r2 = light.size * light.size;
   boolean inside = square <= r2;
   real sine2 = pick(inside, 1.0f, r2 / square);

@@ -31,16 +31,17 @@ SHARED real triangle_size(vec3 ab, vec3 ac) {
 SHARED vec3 geometric_normal(vec3 ab, vec3 ac, vec3 fallback) {
   // Scaled first: a cross product of edges of 1e-12 or 1e+20 would leave float's range.
   real size = triangle_size(ab, ac);
-  vec3 n = cross(ab / size, ac / size);
+  real inverse = 1.0f / size;
+  vec3 n = cross(ab * inverse, ac * inverse);
   real square = dot(n, n);
-  return pick(size > 0.0f && square > 0.0f, n / sqrt(square), fallback);
+  return pick(size > 0.0f && square > 0.0f, n * (1.0f / sqrt(square)), fallback);
 }
 
 // The weighted vertex normals; where they are zero or cancel, the geometric normal.
 SHARED vec3 shading_normal(vec3 weights, vec3 na, vec3 nb, vec3 nc, vec3 n_geometric) {
   vec3 n = weights.x * na + weights.y * nb + weights.z * nc;
   real square = dot(n, n);
-  return pick(square > 1e-12f, n / sqrt(square), n_geometric);
+  return pick(square > 1e-12f, n * (1.0f / sqrt(square)), n_geometric);
 }
 
 // Both normals on the viewer's side.

@@ -288,15 +288,30 @@ inline Mask surely_rough(const SceneArrays& scene, const LaneMaps& lane_maps, co
   return Mask::from_bits(0);
 }
 
+// Of these lanes, those whose material may mirror, transmit or blend: the values of a material with maps are
+// their bounds.
+inline Mask may_show_beyond(const SceneArrays& scene, Int materials, Mask lanes) {
+  unsigned found = 0;
+  for_each_distinct(materials, lanes, [&](std::uint32_t index, Mask same) {
+    const Material& m = scene.materials[index];
+    if (any_component(m.reflectance) || m.fresnel || m.transmits() || scene.maps[m.maps].maps->blends())
+      found |= same.bits();
+  });
+  return Mask::from_bits(found);
+}
+
 // Not inlined: it is large, and most packets have no maps.
 [[gnu::noinline]] void apply_maps(const Bounce& bounce, const Corners& corners, Int triangle,
                                   const Vec& origin, const Vec& direction, Float width,
                                   const MapsWanted& wanted, LaneSurface& s, LaneMaterial& m) {
   const SceneArrays& scene = bounce.scene;
+  Mask mapped = Mask::from_bits(m.mapped);
+  if (wanted.where_mirrored != 0) mapped = may_show_beyond(scene, corners.material, mapped);
+  if (mapped.bits() == 0) return;
   const MapPoints points(*bounce.footprint, corners, origin, direction, s.p_world, width);
   const Float side = select(s.leaving, Float(-1.0f), Float(1.0f));
   const Vec n_vertices = s.n_shading;
-  for_each_distinct(corners.material, Mask::from_bits(m.mapped), [&](std::uint32_t index, Mask same) {
+  for_each_distinct(corners.material, mapped, [&](std::uint32_t index, Mask same) {
     const Material& plain = scene.materials[index];
     const LaneMaps& lane_maps = scene.maps[plain.maps];
     const MaterialMaps& maps = *lane_maps.maps;

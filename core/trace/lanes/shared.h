@@ -79,9 +79,6 @@ inline vec2 operator*(float a, const vec2& b) {
 inline vec2 operator*(Float a, const vec2& b) {
   return {a * b.x, a * b.y};
 }
-inline vec2 operator/(const vec2& a, Float b) {
-  return {a.x / b, a.y / b};
-}
 inline vec2 operator+(const vec2& a, const vec2& b) {
   return {a.x + b.x, a.y + b.y};
 }

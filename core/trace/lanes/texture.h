@@ -183,8 +183,7 @@ struct LaneQuads {
 // How much of a texture's largest level a pixel sees, at the points of some lanes.
 struct LaneFootprints {
   Mask filtered;
-  Float longer;            // texels
-  Float taps;              // 1 where the texture is not filtered
+  Float longer, shorter;   // sides, texels
   Float along_u, along_v;  // the longer side
 
   LaneFootprints(const TexturePlace& place, const vec2& x, const vec2& y, Mask lanes) {
@@ -195,11 +194,15 @@ struct LaneFootprints {
     filtered = place.levels > 1
                    ? lanes & (one < longer) & (longer < Float(shared::kLongestFootprint)) & (zero < xx + yy)
                    : Mask::from_bits(0);
-    const Float shorter = max(abs(x0 * y1 - x1 * y0) / longer, one);
-    const Float many = -floor(-(longer / shorter));
-    taps = select(filtered, min(max(many, one), Float(as_float(shared::kMostTaps))), one);
+    shorter = max(abs(x0 * y1 - x1 * y0) / longer, one);
     along_u = select(filtered, select(yy < xx, x.x, y.x), zero);
     along_v = select(filtered, select(yy < xx, x.y, y.y), zero);
+  }
+
+  // 1 where the texture is not filtered.
+  [[nodiscard]] Float taps() const {
+    const Float one(1.0f), many = -floor(-(longer / shorter));
+    return select(filtered, min(max(many, one), Float(as_float(shared::kMostTaps))), one);
   }
 };
 
@@ -212,7 +215,8 @@ inline Mask all_green(const TexturePlace& place, const LaneTexture& texture, con
   const Float y = wrapped_texel(floor(within_period(uv.y, place.wrap_v) * height), height, place.wrap_v);
   // Half of the longer side, and one and a half texels of the coarser of the levels. Sides that are no powers
   // of two make a level's texels up to 1.13 times as large.
-  const Float apart = max(footprints.longer / footprints.taps, Float(1.0f));
+  const Float apart =  // of taps, or more
+      max(footprints.shorter, footprints.longer * Float(1.0f / as_float(shared::kMostTaps)));
   const Float side_of_texel = from_bits((bits_of(apart) + Int(0x007fffffu)) & Int(0x7f800000u));  // 2^n
   const Float reach =                                                                             // texels
       select(footprints.filtered, Float(0.5f) * footprints.longer + Float(1.7f) * side_of_texel + Float(1.0f),
@@ -230,7 +234,7 @@ inline Mask all_green(const TexturePlace& place, const LaneTexture& texture, con
   Int green = select(Float(1.0f * kSide) < reach, shift_right<8>(found), found);
   green = select(Float(2.0f * kSide) < reach, shift_right<16>(found), green);
   green = select(Float(4.0f * kSide) < reach, shift_right<24>(found), green);
-  return lanes & (Float(least) <= to_float(green & Int(0xffu)) / Float(255.0f));
+  return lanes & (Float(least * 255.0f * 1.000001f) <= to_float(green & Int(0xffu)));
 }
 
 [[gnu::noinline]] void sample_textures(const TexturePlace& place, unsigned wanted, unsigned maps,
@@ -238,7 +242,8 @@ inline Mask all_green(const TexturePlace& place, const LaneTexture& texture, con
   const Mask lanes = Mask::from_bits(wanted);
   const LaneFootprints footprints(place, vec2(Float::load(p.change_x[0]), Float::load(p.change_x[1])),
                                   vec2(Float::load(p.change_y[0]), Float::load(p.change_y[1])), lanes);
-  const auto& [filtered, longer, taps, along_u, along_v] = footprints;
+  const auto& [filtered, longer, shorter, along_u, along_v] = footprints;
+  const Float taps = footprints.taps();
   const LaneLevels levels(place, lanes, filtered, longer / taps);
   const Float zero(0.0f), whole(shared::kWholeShare), u = Float::load(p.uv[0]), v = Float::load(p.uv[1]);
   const Float of_second = floor(whole * levels.part + Float(0.5f));
