@@ -233,6 +233,7 @@ struct MapsWanted {
     constexpr unsigned kOfAmbient = 1u << kEmissive, kOfAmbientLight = 1u << kOcclusion;
     constexpr unsigned kColors = 1u << kBaseColor | 1u << kSpecular | 1u << kSpecularColor;
     everywhere = colors || mirrored || facing ? 1u << kNormal : 0u;
+    if (facing) everywhere |= 1u << kMetallicRoughness;  // rough surfaces turn their normal to the viewer
     if (colors || mirrored) everywhere |= ~(kOfAmbient | kOfAmbientLight);
     if (adds_ambient) everywhere |= kOfAmbient;
     if (ambient_light) everywhere |= kOfAmbientLight;
@@ -240,6 +241,12 @@ struct MapsWanted {
     where_colored = everywhere & kColors;
     if (!facing) where_mirrored = everywhere & 1u << kNormal;
     everywhere &= ~(where_colored | where_mirrored);
+  }
+
+  [[nodiscard]] static MapsWanted normals() {
+    MapsWanted wanted;
+    wanted.everywhere = 1u << kNormal;
+    return wanted;
   }
 
   [[nodiscard]] bool any() const { return (everywhere | where_mirrored) != 0; }
@@ -341,7 +348,8 @@ inline Mask may_show_beyond(const SceneArrays& scene, Int materials, Mask lanes)
     if (wanted.of_material() == 0) return;
     if (wanted.where_colored != 0) {
       const MirroringPoints mirroring(maps, plain, texels, same);
-      if (mirroring.all.bits() == 0 && !maps.blends()) return m.show_nothing_beyond(same);
+      if (wanted.where_mirrored != 0 && mirroring.all.bits() == 0 && !maps.blends())
+        return m.show_nothing_beyond(same);
       read(mirroring.all, wanted.where_mirrored);
       read(mirroring.colored, wanted.where_colored);
     }

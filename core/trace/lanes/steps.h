@@ -295,7 +295,8 @@ void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
 void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue& rays,
                     const SeenColumns& to) {
   const bool reads_material = to.albedo[0] != nullptr;
-  const MapsWanted wanted(reads_material, false, true, false, false);
+  const MapsWanted wanted =
+      reads_material ? MapsWanted(true, false, true, false, false) : MapsWanted::normals();
   const bool by_distance = axis == glm::vec3(0.0f);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     fetch_triangles(bounce.scene, rays, i + kTrianglesAhead);

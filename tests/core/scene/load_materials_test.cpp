@@ -106,6 +106,44 @@ std::vector<MtlMaterial> read_materials(std::string_view text) {
   return read_mtl(text).materials;
 }
 
+// The mode stays as the file has it; it only has no effect.
+TEST(LoadMaterials, AlphaThatLetsNothingPassIsNotAskedFor) {
+  const auto mesh_with = [](AlphaMode mode, std::uint8_t least, float factor, float vertex = 1.0f) {
+    MeshData mesh;
+    mesh.materials = {Material{}};
+    add_triangle(mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    Texture texture{"alpha", Image<glm::u8vec4>({3, 2}, glm::u8vec4(10, 20, 30, 255))};
+    texture.texels.at(2, 1).a = least;
+    mesh.textures = {texture};
+    if (vertex != 1.0f) mesh.colors = {glm::vec4(1.0f), glm::vec4(1.0f), {1.0f, 1.0f, 1.0f, vertex}};
+    MaterialMaps& maps = make_maps(mesh, mesh.materials[0]);
+    maps.alpha_mode = mode;
+    maps.alpha.texture = 0;
+    maps.alpha_factor = factor;
+    return Mesh(std::move(mesh));
+  };
+  struct Case {
+    AlphaMode mode;
+    std::uint8_t least;
+    float factor, vertex;
+    bool is_opaque;
+  };
+  for (const Case& c : {Case{AlphaMode::blend, 255, 1.0f, 1.0f, true},
+                        {AlphaMode::blend, 254, 1.0f, 1.0f, false},
+                        {AlphaMode::blend, 255, 0.99f, 1.0f, false},
+                        {AlphaMode::blend, 255, 1.0f, 0.9f, false},
+                        {AlphaMode::mask, 255, 0.5f, 1.0f, true},
+                        {AlphaMode::mask, 128, 1.0f, 1.0f, true},
+                        {AlphaMode::mask, 127, 1.0f, 1.0f, false},
+                        {AlphaMode::mask, 255, 1.0f, 0.1f, false}}) {
+    const Mesh mesh = mesh_with(c.mode, c.least, c.factor, c.vertex);
+    const MaterialMaps& maps = mesh.maps[0];
+    EXPECT_EQ(maps.alpha_mode, c.mode);
+    EXPECT_EQ(maps.has_holes() || maps.blends(), !c.is_opaque)
+        << static_cast<int>(c.mode) << ", " << int{c.least} << ", " << c.factor << ", " << c.vertex;
+  }
+}
+
 TEST(LoadMaterials, MtlStatements) {
   const std::vector<MtlMaterial> all = read_materials(
       "newmtl red car paint \r\nKd 0.5\nTr 0.25\nmap_Kd -s 2 3 -o 0.5 -clamp on my picture.png\n"

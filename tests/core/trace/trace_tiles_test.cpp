@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/base/aligned_vector.h"
+#include "core/scene/gltf/material_from_surface.h"
 #include "pinocchio/view.h"
 #include "tests/core/trace/lane_probe.h"
 #include "tests/support/scenes.h"
@@ -125,6 +126,37 @@ Scene all_sorts() {
   return scene;
 }
 
+// The same with glTF's materials that have maps, blending, coloured glass, and lights for two bytes of the
+// mask.
+Scene mapped_sorts() {
+  Scene scene = all_sorts();
+  Random random(3);
+  {
+    MeshEdit mesh(scene);
+    Texture noise{"noise", Image<glm::u8vec4>({70, 64})};
+    for (glm::u8vec4& t : noise.texels.pixels())
+      t = {random.next() % 256, random.next() % 256, 128 + random.next() % 128, random.next() % 256};
+    mesh->textures.edit().push_back(noise);
+    MaterialMaps maps;
+    maps.from_gltf = true;
+    maps.surface = {.base_color = {0.9f, 0.6f, 0.4f}, .metallic = 0.5f, .roughness = 0.4f};
+    maps.base_color.texture = maps.metallic_roughness.texture = maps.normal.texture = 1;
+    GltfSurface smoothest = maps.surface;
+    smoothest.roughness = 0.0f;
+    for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::blend}) {
+      Material& material = mesh->materials[mode == AlphaMode::opaque ? 1 : 3];
+      material = material_from_surface(smoothest, Shading::from_file);
+      maps.alpha_mode = mode;
+      if (mode == AlphaMode::blend) maps.alpha.texture = 1;
+      make_maps(*mesh, material) = maps;
+    }
+    mesh->materials[2].attenuation_color = {0.8f, 0.5f, 0.2f};
+    mesh->materials[2].attenuation_distance = 0.5f;
+  }
+  for (int i = 0; i < 6; ++i) scene.lights.push_back(point_light(random_point(random, 3.0f)));
+  return scene;
+}
+
 std::vector<Scene> scenes() {
   std::vector<Scene> all{all_sorts(), plate_over_floor()};
   for (const std::string& name : own_scenes()) all.push_back(load_or_die(source_path(name)));
@@ -224,6 +256,36 @@ TEST(TraceTiles, EachOutputAloneIsWhatItIsAmongAll) {
   out.reflection = &reflection;
   trace_tiles(job, out);
   EXPECT_TRUE(same_bits(reflection, all.reflection));
+}
+
+// Without the composite, visible points are asked for their colours where a shadow ray passes glass, not
+// before: the same light, the same mask.
+TEST(TraceTiles, LightThroughGlassDoesNotDependOnTheComposite) {
+  for (const Scene& scene : {all_sorts(), mapped_sorts()})
+    for (const float cutoff : {0.0f, 1e-30f})
+      for (const Terminator terminator : {Terminator::turned_away, Terminator::displaced}) {
+        const Tracer tracer(scene.mesh);
+        Workers workers(2);
+        TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
+        job.options.light_cutoff = cutoff;
+        job.options.terminator = terminator;
+        const Drawn all = by_tiles(job);
+        Drawn alone;
+        TileOutputs out;
+        out.size = kSize;
+        out.seen = &all.ids;
+        out.mask_bits = mask_bits_of(scene);
+        out.mask = &alone.mask;
+        out.depth = kDepth;
+        out.reflection = &alone.reflection;
+        trace_tiles(job, out);
+        EXPECT_TRUE(same_bits(alone.reflection, all.reflection)) << cutoff;
+        EXPECT_TRUE(std::ranges::equal(alone.mask.bytes(), all.mask.bytes())) << cutoff;
+        out.mask_bits = 0;
+        out.mask = nullptr;
+        trace_tiles(job, out);
+        EXPECT_FALSE(same_bits(alone.reflection, all.reflection)) << "no shadow ray passes glass";
+      }
 }
 
 TEST(TraceTiles, AddedLightIsWhatIsAddedPixelByPixel) {
