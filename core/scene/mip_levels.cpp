@@ -194,7 +194,11 @@ void finish(Texture& texture, const Needed& needed) {
     }
   }
   texture.least = glm::u8vec4(255);
-  for (const glm::u8vec4& texel : texture.texels.pixels()) texture.least = glm::min(texture.least, texel);
+  texture.most = glm::u8vec4(0);
+  for (const glm::u8vec4& texel : texture.texels.pixels()) {
+    texture.least = glm::min(texture.least, texel);
+    texture.most = glm::max(texture.most, texel);
+  }
   texture.least_green = {};
   if (needed.roughness) find_least_green(texture);
   texture.blocks = TexelBlocks(texture.texels, writer.levels());

@@ -44,17 +44,6 @@ bool edit_phong(Material& m) {
   return changed;
 }
 
-// What a surface does not tell stays.
-Material with_surface(const Material& before, const GltfSurface& surface) {
-  Material m = material_from_surface(surface, Shading::from_file);
-  m.name = before.name;
-  m.double_sided = before.double_sided;
-  m.maps = before.maps;
-  m.attenuation_color = before.attenuation_color;
-  m.attenuation_distance = before.attenuation_distance;
-  return m;
-}
-
 void edit(Model& model, const Mesh& mesh) {
   MaterialEdit edited{.material = mesh.materials[model.material]};
   Material& m = edited.material;
@@ -65,7 +54,7 @@ void edit(Model& model, const Mesh& mesh) {
     GltfSurface surface = of_maps ? maps->surface : surface_of_material(m);
     changed = edit_surface(surface, maps != nullptr);
     if (changed) {
-      m = with_surface(m, surface);
+      m = with_surface(mesh, m, surface);
       if (of_maps) edited.surface = surface;
     }
   } else {

@@ -61,7 +61,8 @@ struct Texture {
   std::string name;
   Image<glm::u8vec4> texels;  // for a new mesh, which moves them to `blocks`; none in a finished one
   TexelBlocks blocks{};       // with levels down to one texel where the texture is interpolated
-  glm::u8vec4 least{0};       // of a finished mesh: the least of the texels, in each channel
+  // Of a finished mesh's texels, in each channel.
+  glm::u8vec4 least{0}, most{255};
   // A finished mesh's textures of roughness have a word for each square of kGreenSide texels a side, row by
   // row. Its byte k is the least green of the square and of the texels up to kGreenSide << k around it;
   // beyond an edge the texture repeats.

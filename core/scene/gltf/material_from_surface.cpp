@@ -7,8 +7,24 @@
 
 #include "core/shade/gltf_surface.h"
 #include "core/shade/shared_material.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
+namespace {
+
+// The least and the greatest value of each channel, 0 to 1; both 1 without a texture.
+struct TexelRange {
+  glm::vec4 least{1.0f}, most{1.0f};
+
+  TexelRange(const Textures& textures, const TextureUse& use) {
+    if (!use.used()) return;
+    const Texture& texture = textures[as_size(use.texture)];
+    least = glm::vec4(texture.least) / 255.0f;
+    most = glm::vec4(texture.most) / 255.0f;
+  }
+};
+
+}  // namespace
 
 Material material_from_surface(const GltfSurface& s, Shading shading) {
   const shared::MaterialPoint p =
@@ -30,6 +46,38 @@ Material material_from_surface(const GltfSurface& s, Shading shading) {
   m.ior = p.ior;
   m.fresnel = p.fresnel;
   m.brdf = true;
+  return m;
+}
+
+void bound_rays(const Textures& textures, const MaterialMaps& maps, Material& material) {
+  if (!maps.from_gltf || !(maps.metallic_roughness.used() || maps.transmission.used())) return;
+  const TexelRange rough_metal(textures, maps.metallic_roughness), passes(textures, maps.transmission);
+  GltfSurface sharpest = maps.surface;
+  sharpest.roughness *= rough_metal.least.g;
+  sharpest.metallic *= rough_metal.most.b;
+  sharpest.transmission *= passes.least.r;  // transmitted light is not mirrored
+  const Shading shading = material.is_microfacet() ? Shading::from_file : Shading::phong;
+  const Material mirror = material_from_surface(sharpest, shading);
+  material.reflectance = mirror.reflectance;
+  material.fresnel = mirror.fresnel;
+  // The less metallic a surface is, the more light passes through it.
+  GltfSurface clearest = maps.surface;
+  clearest.metallic *= rough_metal.least.b;
+  clearest.transmission *= passes.most.r;
+  material.transmittance = material_from_surface(clearest, shading).transmittance;
+}
+
+Material with_surface(const Mesh& mesh, const Material& before, const GltfSurface& surface) {
+  Material m = material_from_surface(surface, Shading::from_file);
+  m.name = before.name;
+  m.double_sided = before.double_sided;
+  m.maps = before.maps;
+  m.attenuation_color = before.attenuation_color;
+  m.attenuation_distance = before.attenuation_distance;
+  if (m.maps < 0) return m;
+  MaterialMaps maps = mesh.maps[as_size(m.maps)];
+  maps.surface = surface;
+  bound_rays(mesh.textures, maps, m);
   return m;
 }
 

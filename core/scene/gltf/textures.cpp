@@ -48,37 +48,6 @@ std::vector<std::optional<Texture>> textures_of(const GltfFile& file, const std:
   return textures;
 }
 
-// The least and the greatest value of each channel, 0 to 1; both 1 without a texture.
-struct TexelRange {
-  glm::vec4 least{1.0f}, most{1.0f};
-};
-
-// The ranges of the mesh's textures. Each texture is searched once, however many materials use it.
-class TexelRanges {
- public:
-  explicit TexelRanges(const MeshData& mesh) : mesh_(mesh), known_(mesh.textures.size()) {}
-
-  TexelRange of(const TextureUse& use) {
-    if (!use.used()) return {};
-    std::optional<TexelRange>& known = known_[as_size(use.texture)];
-    if (!known) known = found(mesh_.textures[use.texture]);
-    return *known;
-  }
-
- private:
-  static TexelRange found(const Texture& texture) {
-    glm::u8vec4 least(255), most(0);
-    for (const glm::u8vec4& t : texture.texels.pixels()) {
-      least = glm::min(least, t);
-      most = glm::max(most, t);
-    }
-    return {glm::vec4(least) / 255.0f, glm::vec4(most) / 255.0f};
-  }
-
-  const MeshData& mesh_;
-  std::vector<std::optional<TexelRange>> known_;
-};
-
 // The roughness in green of a texture that has glossiness in alpha.
 Texture roughness_texture(const Texture& from, float glossiness) {
   Texture texture{from.name, from.texels};
@@ -104,25 +73,6 @@ void add_roughness(const GltfFile& file, MeshData& mesh, Loading& loading) {
     m.metallic_roughness.texture = as_int(mesh.textures.size()) - 1;
     m.surface.roughness = 1.0f;
   }
-}
-
-// The most that a surface mirrors and lets through anywhere: it decides whether rays are traced for it.
-void bound_rays(TexelRanges& ranges, Material& material, const MaterialMaps& maps) {
-  if (!maps.from_gltf || !(maps.metallic_roughness.used() || maps.transmission.used())) return;
-  const TexelRange rough_metal = ranges.of(maps.metallic_roughness), passes = ranges.of(maps.transmission);
-  GltfSurface sharpest = maps.surface;
-  sharpest.roughness *= rough_metal.least.g;
-  sharpest.metallic *= rough_metal.most.b;
-  sharpest.transmission *= passes.least.r;  // transmitted light is not mirrored
-  const Shading shading = material.is_microfacet() ? Shading::from_file : Shading::phong;
-  const Material mirror = material_from_surface(sharpest, shading);
-  material.reflectance = mirror.reflectance;
-  material.fresnel = mirror.fresnel;
-  // The less metallic a surface is, the more light passes through it.
-  GltfSurface clearest = maps.surface;
-  clearest.metallic *= rough_metal.least.b;
-  clearest.transmission *= passes.most.r;
-  material.transmittance = material_from_surface(clearest, shading).transmittance;
 }
 
 }  // namespace
@@ -159,10 +109,9 @@ void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading) {
   }
   for (TextureUse* use : uses) use->texture = ours[place.at(use->texture)];
   add_roughness(file, mesh, loading);
-  TexelRanges ranges(mesh);
-  for (Material& material : mesh.materials)
-    if (material.maps >= 0) bound_rays(ranges, material, mesh.maps[material.maps]);
   finish_textures(mesh, loading.progress);
+  for (Material& material : mesh.materials)
+    if (material.maps >= 0) bound_rays(mesh.textures, mesh.maps[material.maps], material);
 }
 
 }  // namespace pinocchio

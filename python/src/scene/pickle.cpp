@@ -177,7 +177,7 @@ void parts(A& a, Material& value) {
 }
 template <class A>
 void parts(A& a, Texture& value) {
-  auto& [name, texels, blocks, least_green] = value;  // a mesh makes the last two of the texels
+  auto& [name, texels, blocks, least, most, least_green] = value;  // a mesh makes the last four of the texels
   each(a, name, texels);
 }
 template <class A>

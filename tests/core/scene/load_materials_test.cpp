@@ -1,4 +1,5 @@
 // What files say of textures and alpha arrives in materials' maps.
+#include "core/scene/gltf/material_from_surface.h"
 #include "core/scene/obj/mtl.h"
 #include "core/scene/obj/mtl_features.h"
 #include "tests/support/gltf.h"
@@ -104,6 +105,24 @@ TEST(LoadMaterials, WhatBlendsAndIsWholeIsOpaque) {
 
 std::vector<MtlMaterial> read_materials(std::string_view text) {
   return read_mtl(text).materials;
+}
+
+// A texture makes it mirror here and transmit there, which its surface alone does not.
+TEST(LoadMaterials, AnEditedSurfaceKeepsTheRaysOfItsTextures) {
+  std::ofstream(own_file("texels.ppm"), std::ios::binary) << "P6 2 1 255\n"
+                                                          << std::string("\0\0\0\xff\xff\xff", 6);
+  Json json = textured_json({{"uri", "texels.ppm"}});
+  Json& material = json["materials"][0];
+  material["pbrMetallicRoughness"] = {{"metallicFactor", 0}, {"roughnessFactor", 0}};
+  material["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 1.0},
+                                                          {"transmissionTexture", {{"index", 0}}}};
+  const Scene scene = load_good(json);
+  const Mesh& mesh = *scene.mesh;
+  const Material& loaded = mesh.material_of(0);
+  ASSERT_TRUE(loaded.reflects() && loaded.transmits());
+  const GltfSurface surface = mesh.maps_of(0)->surface;
+  EXPECT_EQ(with_surface(mesh, loaded, surface), loaded);
+  EXPECT_FALSE(material_from_surface(surface, Shading::from_file).reflects());
 }
 
 // The mode stays as the file has it; it only has no effect.
