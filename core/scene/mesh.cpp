@@ -9,46 +9,48 @@
 namespace pinocchio {
 namespace {
 
-// Gives materials whose triangles have coloured vertices maps with vertex_colors.
-void let_vertex_colors_count(MeshData& mesh) {
+// Calls visit(material, colour) for the corners of all triangles. Indices out of range are skipped:
+// check_scene reports them.
+template <class Visit>
+void for_each_colored_corner(const MeshData& mesh, Visit visit) {
   if (mesh.colors.size() != mesh.positions.size()) return;
-  std::vector<bool> colored(mesh.materials.size(), false);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     for (int c = 0; c < 3; ++c) {
       const std::uint32_t vertex = mesh.triangles[i][c], material = mesh.triangle_materials[i];
-      if (vertex < mesh.colors.size() && material < colored.size() && mesh.colors[vertex] != glm::vec4(1.0f))
-        colored[material] = true;
+      if (vertex < mesh.colors.size() && material < mesh.materials.size())
+        visit(material, mesh.colors[vertex]);
     }
+}
+
+// Gives materials whose triangles have coloured vertices maps with vertex_colors.
+void let_vertex_colors_count(MeshData& mesh) {
+  std::vector<bool> colored(mesh.materials.size(), false);
+  for_each_colored_corner(mesh, [&](std::uint32_t material, const glm::vec4& color) {
+    if (color != glm::vec4(1.0f)) colored[material] = true;
+  });
   for (std::size_t i = 0; i < colored.size(); ++i)
     if (colored[i]) make_maps(mesh, mesh.materials[i]).vertex_colors = true;
 }
 
-// Whether a vertex of the triangles with these maps has an alpha below 1.
-bool has_faint_vertices(const MeshData& mesh, std::size_t maps) {
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const std::uint32_t material = mesh.triangle_materials[i];
-    if (material >= mesh.materials.size() || mesh.materials[material].maps != as_int(maps)) continue;
-    for (int c = 0; c < 3; ++c)
-      if (const std::uint32_t vertex = mesh.triangles[i][c];
-          vertex < mesh.colors.size() && !(mesh.colors[vertex].a >= 1.0f))
-        return true;
-  }
-  return false;
-}
-
-// Sets least_alpha of all materials.
+// Sets least_alpha of the materials that have another mode than opaque.
 void find_least_alpha(MeshData& mesh) {
-  const auto of_texels = [&](const MaterialMaps& maps) {
+  const auto texel = [&](const MaterialMaps& maps) {
     if (!maps.alpha.used()) return 1.0f;
     if (as_size(maps.alpha.texture) >= mesh.textures.size()) return 0.0f;
     return as_float(mesh.textures[as_size(maps.alpha.texture)].least[maps.alpha_channel]) / 255.0f;
   };
-  for (std::size_t i = 0; i < mesh.maps.size(); ++i) {
-    MaterialMaps& maps = mesh.maps[i];
-    const bool is_asked = maps.alpha_mode != AlphaMode::opaque;
-    maps.least_alpha =
-        is_asked && !(maps.vertex_colors && has_faint_vertices(mesh, i)) ? of_texels(maps) : 0.0f;
+  bool asks_vertices = false;
+  for (MaterialMaps& maps : mesh.maps) {
+    const bool asks = maps.alpha_mode != AlphaMode::opaque;
+    maps.least_alpha = asks ? texel(maps) : 0.0f;
+    asks_vertices = asks_vertices || (asks && maps.vertex_colors);
   }
+  if (!asks_vertices) return;
+  for_each_colored_corner(mesh, [&](std::uint32_t material, const glm::vec4& color) {
+    const int maps = mesh.materials[material].maps;
+    if (maps >= 0 && as_size(maps) < mesh.maps.size() && !(color.a >= 1.0f))
+      mesh.maps[maps].least_alpha = 0.0f;
+  });
 }
 
 // The bounds of the vertices that triangles have. Indices out of range are skipped: check_scene reports them.

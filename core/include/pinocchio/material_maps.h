@@ -62,10 +62,10 @@ struct MaterialMaps {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_factor = 1.0f;
   float alpha_cutoff = 0.5f;
-  // Of a finished mesh: no point's texel times its vertex colour is below it in alpha. 0: not known.
+  // The least alpha of all points, before alpha_factor; a finished mesh has it. 0: not known.
   float least_alpha = 0.0f;
 
-  // The mode, or opaque where alpha lets nothing pass at any point: rays do not ask for it then.
+  // Opaque where no point lets anything pass, so that rays need not ask for alpha; else the mode.
   [[nodiscard]] AlphaMode effective_alpha_mode() const {
     const float least = alpha_factor * least_alpha;
     return least >= (alpha_mode == AlphaMode::mask ? alpha_cutoff : 1.0f) ? AlphaMode::opaque : alpha_mode;

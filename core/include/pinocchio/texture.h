@@ -59,10 +59,9 @@ class TexelBlocks {
 // 0 is the top row.
 struct Texture {
   std::string name;
-  Image<glm::u8vec4> texels;  // for a new mesh, which moves them to `blocks`; none in a finished one
-  TexelBlocks blocks{};       // with levels down to one texel where the texture is interpolated
-  // Of a finished mesh's texels, in each channel.
-  glm::u8vec4 least{0}, most{255};
+  Image<glm::u8vec4> texels;        // for a new mesh, which moves them to `blocks`; none in a finished one
+  TexelBlocks blocks{};             // with levels down to one texel where the texture is interpolated
+  glm::u8vec4 least{0}, most{255};  // of all texels, each channel by itself; a finished mesh has them
   // A finished mesh's textures of roughness have a word for each square of kGreenSide texels a side, row by
   // row. Its byte k is the least green of the square and of the texels up to kGreenSide << k around it;
   // beyond an edge the texture repeats.

@@ -75,7 +75,7 @@ struct Bounce {
   std::uint32_t eye_medium = kNoMedium;  // the material around the camera
   // Light goes straight on through glass: shadow rays carry it, and the medium that they start in.
   bool tints = false;
-  bool light_later = false;  // shadow rays carry no light yet: it is asked for where they pass glass
+  bool light_later = false;  // shadow rays carry none at first; those that pass glass get it afterwards
   bool of_matt = false;      // the rays were sent by matt surfaces, which look for the environment themselves
   bool adds_light = false;   // lights that cast none add theirs to `radiance`, shadow rays carry it
   // Whether anything is sampled; the whole picture's pixel that is (0, 0) in the queues; the distance of the

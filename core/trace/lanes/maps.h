@@ -295,8 +295,8 @@ inline Mask surely_rough(const SceneArrays& scene, const LaneMaps& lane_maps, co
   return Mask::from_bits(0);
 }
 
-// Of these lanes, those whose material may mirror, transmit or blend: the values of a material with maps are
-// their bounds.
+// The lanes whose material mirrors, transmits or blends somewhere. The values of a material with maps are the
+// most that it does.
 inline Mask may_show_beyond(const SceneArrays& scene, Int materials, Mask lanes) {
   unsigned found = 0;
   for_each_distinct(materials, lanes, [&](std::uint32_t index, Mask same) {

@@ -102,8 +102,8 @@ void TileTracer::fire_reflected(RayQueue& queue, float reach, const RayQueue& wa
       reflected_[queue.pixel[i]] += glm::vec4(queue.light[0][i], queue.light[1][i], queue.light[2][i], 0.0f);
 }
 
-// Sets blocked_ for each shadow ray. later: where the rays are from visible points and carry no light yet,
-// the one that they go to.
+// Sets blocked_ for each shadow ray. later: the light that the rays go to, where they do not carry its light
+// yet; null: they do.
 void TileTracer::ask_occluded(const RayQueue& queue, float reach, const BounceLight* later) {
   const TilePlan& plan = *plan_;
   counts_.shadow += queue.size;
@@ -122,32 +122,32 @@ void TileTracer::ask_occluded(const RayQueue& queue, float reach, const BounceLi
   tinted_.go_on(plan.job.tracer, plan.shadows, reach, blocked_.data());
 }
 
-// Sets the light of some of the queue's shadow rays, which start at visible points. `pixel` is a ray's place
-// in the queue.
+// Sets what `rays` carry of a light. They are some of the queue's rays from visible points; `pixel` is their
+// place in the queue.
 void TileTracer::light_rays(BounceLight from, const RayQueue& queue, RayQueue& rays) {
-  later_.make_room(rays.size);
+  passing_points_.make_room(rays.size);
   std::size_t point = 0;  // the queue has the order of seen_
   for (std::size_t k = 0; k < rays.size; ++k) {
     const std::uint32_t pixel = queue.pixel[rays.pixel[k]];
     while (seen_.pixel[point] != pixel) ++point;
-    copy_ray(seen_, point, later_, k);
-    later_.pixel[k] = pixel;
+    copy_ray(seen_, point, passing_points_, k);
+    passing_points_.pixel[k] = pixel;
   }
-  later_.size = rays.size;
-  of_later_.make_room(rays.size, {.medium = extra_columns().medium});
-  ways_up_of_later_.make_room(rays.size);
+  passing_points_.size = rays.size;
+  passing_.make_room(rays.size, {.medium = extra_columns().medium});
+  passing_ways_up_.make_room(rays.size);
   from.queue = 0;
   Bounce step = plan_->visible;
   use_queues(step);
   if (plan_->model) step.footprint = &seen_footprint_;
   step.lights = &from;
   step.light_count = 1;
-  step.shadow = &of_later_;
-  step.ways_up = &ways_up_of_later_;
+  step.shadow = &passing_;
+  step.ways_up = &passing_ways_up_;
   step.light_later = false;
-  plan_->job.tracer.steps().bounce(step, later_);
-  assert(of_later_.size == rays.size);
-  for (int axis = 0; axis < 3; ++axis) std::copy_n(of_later_.light[axis], rays.size, rays.light[axis]);
+  plan_->job.tracer.steps().bounce(step, passing_points_);
+  assert(passing_.size == rays.size);
+  for (int axis = 0; axis < 3; ++axis) std::copy_n(passing_.light[axis], rays.size, rays.light[axis]);
 }
 
 // A ray that would start behind something, after it was lifted, counts as blocked. Holes are ignored: the way

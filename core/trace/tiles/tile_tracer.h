@@ -97,7 +97,7 @@ class TileTracer {
   RayQueue diffuse_, next_diffuse_;
   std::array<RayQueue, kLightGroup> shadow_, ways_up_;
   RayQueue sky_, sky_ways_up_, lobe_lights_;
-  RayQueue later_, of_later_, ways_up_of_later_;  // points whose shadow rays pass glass; those rays
+  RayQueue passing_points_, passing_, passing_ways_up_;  // shadow rays that pass glass, and where they start
   // By shadow ray. 0: nothing is in the way; 1: something, through which light may come (tinted_); 3: no
   // light comes.
   std::vector<std::uint8_t> blocked_;

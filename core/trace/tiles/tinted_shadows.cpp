@@ -12,8 +12,8 @@ glm::vec3 vector_at(float* const (&columns)[3], std::size_t i) {
   return {columns[0][i], columns[1][i], columns[2][i]};
 }
 
-// Whether the rays' light has a position, where it stays.
-bool stays(float reach) {
+// Whether rays of this reach end at their light. The light of others is infinitely far away.
+bool end_at_light(float reach) {
   return reach == 1.0f;
 }
 
@@ -38,7 +38,7 @@ RayQueue& TintedShadows::begin(const Tracer& tracer, const PassedSurfaces& passe
   is_tinted_.clear();
   lit_.clear();
   for (std::size_t i = 0; i < rays.size; ++i) {
-    const bool absorbed = stays(reach) && rays.medium && rays.medium[i] != kNoMedium;
+    const bool absorbed = end_at_light(reach) && rays.medium && rays.medium[i] != kNoMedium;
     if (blocked[i] != kMayPass && (blocked[i] != 0 || !absorbed)) continue;
     blocked[i] = 1;
     copy_ray(rays, i, on_, on_.size);
@@ -75,7 +75,7 @@ void TintedShadows::go_on(const Tracer& tracer, const Bounce& bounce, float reac
   for (int layer = 0; on_.size > 0 && layer < kMostLayers; ++layer) {
     tracer.closest_hits(on_.columns(reach), on_.size, on_.triangle);
     const std::uint32_t* const holes = met_.find(tracer, bounce, on_);
-    tracer.steps().cross_glass(bounce, holes, stays(reach), on_);
+    tracer.steps().cross_glass(bounce, holes, end_at_light(reach), on_);
     keep_going(holes, bounce.options->throughput_cutoff, blocked);
   }
 }

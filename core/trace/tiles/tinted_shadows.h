@@ -36,7 +36,7 @@ class TintedShadows {
   // its light is below the options' cutoff. bounce: the step that the rays are from.
   void go_on(const Tracer& tracer, const Bounce& bounce, float reach, std::uint8_t* blocked);
 
-  // What the last go_on() found.
+  // The rays that came to their light in the last go_on().
   [[nodiscard]] std::span<const Lit> lit() const { return lit_; }
 
  private:

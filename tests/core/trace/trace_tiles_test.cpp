@@ -8,7 +8,6 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/base/aligned_vector.h"
 #include "core/scene/gltf/material_from_surface.h"
 #include "pinocchio/view.h"
 #include "tests/core/trace/lane_probe.h"
@@ -232,6 +231,16 @@ TEST(TraceTiles, SameBitsForAnyWidthAndThreads) {
   }
 }
 
+// Outputs for given ids; the caller sets which.
+TileOutputs outputs_of(const TraceJob& job, const Image<std::uint32_t>& ids, int depth) {
+  TileOutputs out;
+  out.size = kSize;
+  out.seen = &ids;
+  out.mask_bits = mask_bits_of(job.scene);
+  out.depth = depth;
+  return out;
+}
+
 TEST(TraceTiles, EachOutputAloneIsWhatItIsAmongAll) {
   const Scene scene = all_sorts();
   const Tracer tracer(scene.mesh);
@@ -239,53 +248,48 @@ TEST(TraceTiles, EachOutputAloneIsWhatItIsAmongAll) {
   const TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
   const Drawn all = by_tiles(job);
   MaskImage mask;
-  TileOutputs out;
-  out.size = kSize;
-  out.seen = &all.ids;
-  out.mask_bits = mask_bits_of(scene);
+  TileOutputs out = outputs_of(job, all.ids, 0);
   out.mask = &mask;
   trace_tiles(job, out);
   EXPECT_TRUE(std::ranges::equal(mask.bytes(), all.mask.bytes()));
 
   Image<glm::vec3> reflection;
-  out = {};
-  out.size = kSize;
-  out.seen = &all.ids;
-  out.mask_bits = mask_bits_of(scene);  // for light through glass
-  out.depth = kDepth;
+  out = outputs_of(job, all.ids, kDepth);
   out.reflection = &reflection;
   trace_tiles(job, out);
   EXPECT_TRUE(same_bits(reflection, all.reflection));
 }
 
-// Without the composite, visible points are asked for their colours where a shadow ray passes glass, not
-// before: the same light, the same mask.
-TEST(TraceTiles, LightThroughGlassDoesNotDependOnTheComposite) {
+// Beside light that is added pixel by pixel, all visible points are asked for their colours; else only those
+// whose shadow rays pass glass, afterwards.
+TEST(TraceTiles, LightThroughGlassIsTheSameWhenColorsAreAskedForLater) {
   for (const Scene& scene : {all_sorts(), mapped_sorts()})
     for (const float cutoff : {0.0f, 1e-30f})
-      for (const Terminator terminator : {Terminator::turned_away, Terminator::displaced}) {
-        const Tracer tracer(scene.mesh);
-        Workers workers(2);
-        TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
-        job.options.light_cutoff = cutoff;
-        job.options.terminator = terminator;
-        const Drawn all = by_tiles(job);
-        Drawn alone;
-        TileOutputs out;
-        out.size = kSize;
-        out.seen = &all.ids;
-        out.mask_bits = mask_bits_of(scene);
-        out.mask = &alone.mask;
-        out.depth = kDepth;
-        out.reflection = &alone.reflection;
-        trace_tiles(job, out);
-        EXPECT_TRUE(same_bits(alone.reflection, all.reflection)) << cutoff;
-        EXPECT_TRUE(std::ranges::equal(alone.mask.bytes(), all.mask.bytes())) << cutoff;
-        out.mask_bits = 0;
-        out.mask = nullptr;
-        trace_tiles(job, out);
-        EXPECT_FALSE(same_bits(alone.reflection, all.reflection)) << "no shadow ray passes glass";
-      }
+      for (const Terminator terminator : {Terminator::turned_away, Terminator::displaced})
+        for (const int depth : {0, kDepth}) {
+          const Tracer tracer(scene.mesh);
+          Workers workers(2);
+          TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
+          job.options.light_cutoff = cutoff;
+          job.options.terminator = terminator;
+          Drawn at_once, later;
+          trace_visibility(job, later.ids);
+          Image<glm::vec3> added(kSize, glm::vec3(0.0f));
+          TileOutputs out = outputs_of(job, later.ids, depth);
+          for (Drawn* drawn : {&at_once, &later}) {
+            out.mask = &drawn->mask;
+            out.reflection = &drawn->reflection;
+            out.added = drawn == &at_once ? &added : nullptr;
+            trace_tiles(job, out);
+          }
+          EXPECT_TRUE(same_bits(later.reflection, at_once.reflection)) << cutoff << ", " << depth;
+          EXPECT_TRUE(std::ranges::equal(later.mask.bytes(), at_once.mask.bytes()))
+              << cutoff << ", " << depth;
+          out.mask_bits = 0;
+          out.mask = nullptr;
+          trace_tiles(job, out);
+          EXPECT_FALSE(same_bits(later.reflection, at_once.reflection)) << "no shadow ray passes glass";
+        }
 }
 
 TEST(TraceTiles, AddedLightIsWhatIsAddedPixelByPixel) {
@@ -296,11 +300,7 @@ TEST(TraceTiles, AddedLightIsWhatIsAddedPixelByPixel) {
   const Drawn passes = one_by_one(job);
   Image<glm::vec3> expected(kSize, glm::vec3(0.25f)), added = expected;
   add_traced_light(job, passes.ids, passes.mask, passes.reflection, expected);
-  TileOutputs out;
-  out.size = kSize;
-  out.seen = &passes.ids;
-  out.mask_bits = mask_bits_of(scene);
-  out.depth = kDepth;
+  TileOutputs out = outputs_of(job, passes.ids, kDepth);
   out.added = &added;
   trace_tiles(job, out);
   for (std::size_t i = 0; i < added.pixels().size(); ++i)
@@ -412,42 +412,6 @@ TEST(TraceTiles, MasksAreThoseAskedRayByRay) {
           << scale;
     }
   }
-}
-
-// Distance in units in the last place of the float nearest to the true value.
-double error_ulps(float ours, double exact) {
-  const int exponent = std::max(std::ilogb(exact), -126);
-  return std::abs(static_cast<double>(ours) - exact) / std::ldexp(1.0, exponent - 23);
-}
-
-TEST(Power, WithinHalfAUnitOfLibmAtEveryWidth) {
-  constexpr std::size_t kCount = 1 << 16;
-  AlignedVector<float> x(kCount), y(kCount), ours(kCount), first(kCount);
-  Random random(3);
-  for (std::size_t i = 0; i < kCount; ++i) {
-    // Every order of magnitude of x, denormals as well, and near 1, where exponents of highlights matter.
-    x[i] = i % 2 == 0 ? std::ldexp(random.between(0.5f, 1.0f), -static_cast<int>(i / 2 % 149))
-                      : 1.0f - std::ldexp(random.between(0.5f, 1.0f), -static_cast<int>(i / 2 % 24));
-    if (!(x[i] > 0.0f)) x[i] = 0x1p-149f;
-    y[i] = std::exp2(random.between(-8.0f, 14.0f));
-  }
-  x[0] = 1.0f, x[1] = 0x1.000002p0f, y[1] = 1e6f, y[2] = 0.0f, x[3] = 0.5f, y[3] = 1.0f;
-  double worst = 0.0;
-  for (const Isa isa : supported_isas()) {
-    lane_probe(isa).power(x.data(), y.data(), ours.data(), kCount);
-    if (isa == Isa::scalar) first = ours;
-    EXPECT_EQ(std::memcmp(ours.data(), first.data(), kCount * sizeof(float)), 0) << isa_name(isa);
-    for (std::size_t i = 0; i < kCount; ++i) {
-      const double exact = std::pow(static_cast<double>(x[i]), static_cast<double>(y[i]));
-      if (exact < 0x1p-149) {
-        EXPECT_LE(ours[i], 0x1p-149f);
-      } else {
-        worst = std::max(worst, error_ulps(ours[i], exact));
-      }
-    }
-  }
-  std::printf("  worst error %.4f units in the last place\n", worst);
-  EXPECT_LE(worst, 0.51);
 }
 
 }  // namespace
