@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/clock.h"
+#include "core/bsp/clear/clear_ways.h"
 #include "core/bsp/moving/posed_trees.h"
 #include "core/bsp/wide/wide_on_demand.h"
 #include "core/trace/lanes/lane_steps.h"
@@ -139,6 +140,8 @@ Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Is
   offset_ = RayOffset::of(offset, trees_->bounds);
   if (WideOnDemand::serves(*trees_, isa_))
     wide_ = std::make_shared<WideOnDemand>(trees_, isa_, options.threads);
+  if (isa_ != Isa::scalar && offset == OffsetMethod::error_bound && ClearWaysToLights::serves(*trees_))
+    clear_ways_ = std::make_shared<ClearWaysToLights>(trees_);
   build_end_s_ = now_s();
 }
 

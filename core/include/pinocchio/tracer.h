@@ -24,6 +24,7 @@ struct PassedSurfaces;
 struct RayColumns;
 struct SceneTrees;
 struct WideTree;
+class ClearWaysToLights;
 class WideOnDemand;
 
 // The instruction set, which sets the width of ray packets.
@@ -71,6 +72,8 @@ class Tracer {
                     const MaterialMarks* backs = nullptr) const;
   void occluded(const RayColumns& rays, std::size_t n, std::uint8_t* blocked,
                 const PassedSurfaces* passed = nullptr) const;
+  // Null: all shadow rays are to be traced.
+  [[nodiscard]] ClearWaysToLights* clear_ways() const { return clear_ways_.get(); }
   // The steps of the tile pass at this tracer's width.
   [[nodiscard]] const LaneSteps& steps() const;
 
@@ -91,7 +94,8 @@ class Tracer {
   std::shared_ptr<const Mesh> mesh_;
   std::shared_ptr<const MotionState> motion_;  // for the next pose's tracer; null: the scene has no nodes
   std::shared_ptr<const SceneTrees> trees_;
-  std::shared_ptr<WideOnDemand> wide_;  // null: the trees have none
+  std::shared_ptr<WideOnDemand> wide_;             // null: the trees have none
+  std::shared_ptr<ClearWaysToLights> clear_ways_;  // likewise
   Isa isa_;
   RayOffset offset_;
 };

@@ -34,6 +34,7 @@ inline constexpr std::uint32_t kLampPixels = 2 * kSampledPixels;
 // it.
 inline constexpr float kSharpAlpha = 0.01f, kSharpGloss = 5000.0f;
 
+class ClearWays;
 struct EnvironmentLight;
 struct SampledPoint;
 
@@ -57,7 +58,8 @@ struct BounceLight {
   int slot;   // in the mask; -1: casts no shadow
   int queue;  // its shadow queue's index; -1: casts no shadow
   bool has_size;
-  std::uint32_t index;  // in the scene
+  std::uint32_t index;              // in the scene
+  ClearWays* clear_ways = nullptr;  // from visible points; null: all shadow rays are to be traced
 };
 
 // What a step computes where rays meet triangles.
@@ -90,6 +92,7 @@ struct Bounce {
 
   // Outputs. Queues have room for all rays of the step; null: not wanted.
   RayQueue* shadow = nullptr;  // one for each of the step's casting lights
+  RayQueue* clear = nullptr;   // likewise: the pixel and the light of those that need not be traced
   // One for each of them: rays to the origins of lifted shadow rays; their `pixel` is the shadow ray's place
   // in its queue.
   RayQueue* ways_up = nullptr;

@@ -93,6 +93,15 @@ inline void put(const Vec& v, float* const (&columns)[3], std::size_t i) {
 }
 
 // Appends the rays of `lanes` to the queue.
+inline void append_light(const Vec& light, Int pixel, Mask lanes, RayQueue& queue) {
+  const std::size_t i = queue.size;
+  store_packed(queue.light[0] + i, light.x, lanes);
+  store_packed(queue.light[1] + i, light.y, lanes);
+  store_packed(queue.light[2] + i, light.z, lanes);
+  store_packed(queue.pixel + i, pixel, lanes);
+  queue.size += as_size(__builtin_popcount(lanes.bits()));
+}
+
 inline void append(const Vec& origin, const Vec& direction, const Vec& light, Int pixel, Mask lanes,
                    RayQueue& queue) {
   const std::size_t i = queue.size;
@@ -102,11 +111,7 @@ inline void append(const Vec& origin, const Vec& direction, const Vec& light, In
   store_packed(queue.direction[0] + i, direction.x, lanes);
   store_packed(queue.direction[1] + i, direction.y, lanes);
   store_packed(queue.direction[2] + i, direction.z, lanes);
-  store_packed(queue.light[0] + i, light.x, lanes);
-  store_packed(queue.light[1] + i, light.y, lanes);
-  store_packed(queue.light[2] + i, light.z, lanes);
-  store_packed(queue.pixel + i, pixel, lanes);
-  queue.size += as_size(__builtin_popcount(lanes.bits()));
+  append_light(light, pixel, lanes, queue);
 }
 
 // The same for shadow rays that leave the surface.

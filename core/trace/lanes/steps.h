@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/base/prefetch.h"
+#include "core/bsp/clear/clear_ways.h"
 #include "core/trace/lanes/environment.h"
 #include "core/trace/lanes/glass.h"
 #include "core/trace/lanes/holes.h"
@@ -66,6 +67,20 @@ inline void append_shadow_rays(const BounceLight& from, const LaneSurface& s, co
   starts.append_ways_up(lanes, bounce.shadow[from.queue], bounce.ways_up[from.queue]);
 }
 
+// The lanes whose shadow rays need not be traced.
+inline Mask with_clear_ways(const BounceLight& light, const LaneSurface& s, const ShadowStarts& starts,
+                            Int triangle, Mask lanes) {
+  // Rounded weights are off by less than this.
+  const Float least(kInnerWeight + 0x1p-16f);
+  const Mask inside =
+      lanes & ~starts.lifted() & (least < s.weights.x) & (least < s.weights.y) & (least < s.weights.z);
+  Mask clear = Mask::from_bits(0);
+  for_each_distinct(triangle, inside, [&](std::uint32_t id, Mask same) {
+    if (light.clear_ways->is_clear(id, as_uint32(__builtin_popcount(same.bits())))) clear = clear | same;
+  });
+  return clear;
+}
+
 // The light that comes from one light to the points of a packet.
 template <bool kSampled>
 [[gnu::always_inline]] inline Incident light_from(const BounceLight& light, const LaneSurface& s,
@@ -94,7 +109,7 @@ inline Float most_light(const LaneMaterial& material, const Incident& incident, 
 template <bool kSampled>
 inline Vec light_points(const Bounce& bounce, const Corners& corners, const LaneSurface& s,
                         const LaneMaterial& m, const Vec& throughput, const LaneLobe& lobe,
-                        const SampledPixel* sampling, Int pixel, Mask lanes) {
+                        const SampledPixel* sampling, Int triangle, Int pixel, Mask lanes) {
   // With a cutoff, visible points with maps choose their shadow rays by the geometric normal alone.
   const bool cuts = bounce.cuts_light();
   const unsigned mapped = cuts ? m.mapped : 0;
@@ -129,6 +144,11 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
     }
     const Vec carried = throughput * term;
     if (!bounce.visible) lit = lit & ~(largest(carried) < Float(bounce.options->throughput_cutoff));
+    if (light.clear_ways) {
+      const Mask clear = with_clear_ways(light, s, starts, triangle, lit);
+      append_light(carried, pixel, clear, bounce.clear[light.queue]);
+      lit = lit & ~clear;
+    }
     // Visible points' rays also set the mask.
     const Int of = apart && !bounce.visible ? lamp_pixel(bounce, pixel) : pixel;
     append_shadow_rays(light, s, starts, incident, carried, of, lit, bounce);
@@ -270,7 +290,8 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
         if (rays.way) s.way = Float::load(rays.way + i) + s.way;
         add_points(bounce, s, m, throughput, pixel, lanes);
       }
-    const Vec certain = light_points<kSampled>(bounce, corners, s, m, own, lobe, samples, pixel, lanes);
+    const Vec certain =
+        light_points<kSampled>(bounce, corners, s, m, own, lobe, samples, triangle, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
     if (bounce.prefiltered) add_prefiltered_sky(bounce, s, m, own, pixel, lanes);
     if constexpr (kSampled)

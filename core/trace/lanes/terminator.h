@@ -50,6 +50,9 @@ class ShadowStarts {
       append_lifted(lanes, shadow, up);
   }
 
+  // The lanes whose next origins() are lifted.
+  [[nodiscard]] Mask lifted() const { return Mask::from_bits(lifted_); }
+
  private:
   // Not inlined: few packets hold a facet that turns away.
   [[gnu::noinline]] void append_lifted(Mask lanes, const RayQueue& shadow, RayQueue& up) const {

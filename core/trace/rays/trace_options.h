@@ -40,6 +40,7 @@ struct TraceOptions {
   // with textures fire one at each light that their triangle faces. 0: every bit of the mask is exact.
   float light_cutoff = 0.0f;
   float texture_footprint = 1.0f;  // side of the square that textures are averaged over, pixels; 0: a point
+  bool clear_ways = true;          // shadow rays that are known to be free are not traced (core/bsp/clear)
   Terminator terminator = kUsualTerminator;
   Backfaces backfaces = Backfaces::automatic;  // which backs the camera's rays pass
   EnvironmentMethod environment_light = EnvironmentMethod::sampled;

@@ -137,6 +137,7 @@ void TileTracer::light_rays(BounceLight from, const RayQueue& queue, RayQueue& r
   passing_.make_room(rays.size, {.medium = extra_columns().medium});
   passing_ways_up_.make_room(rays.size);
   from.queue = 0;
+  from.clear_ways = nullptr;
   Bounce step = plan_->visible;
   use_queues(step);
   if (plan_->model) step.footprint = &seen_footprint_;

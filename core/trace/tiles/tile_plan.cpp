@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "core/base/prefetch.h"
+#include "core/bsp/clear/clear_ways.h"
 #include "core/shade/ground_sky.h"
 #include "core/shade/surface.h"
 #include "core/trace/tiles/holes.h"
@@ -207,10 +208,28 @@ void TilePlan::plan_visible() {
   visible.adds_light = out.color || out.added;
   visible_lights = visible_groups(further_lights, out, visible.adds_ambient);
   lights_in_reflection = std::ranges::any_of(visible_lights, &LightGroup::in_reflection);
+  find_clear_ways();
   visible = lit_by(visible_lights.front(), visible);
   visible.light_later = visible.tints && !visible.adds_ambient && !visible.adds_light &&
                         !lights_in_reflection && !visible.environment && !visible.prefiltered &&
                         !visible.lobes && !out.sampled && out.indirect == 0;
+}
+
+// Where all rays are looked at, all are made.
+void TilePlan::find_clear_ways() {
+  ClearWaysToLights* const known = job.tracer.clear_ways();
+  if (!known || !job.options.clear_ways || out.on_rays) return;
+  std::vector<BounceLight*> lights;
+  std::vector<LightPlace> places;
+  for (LightGroup& group : visible_lights)
+    for (BounceLight& light : group.lights) {
+      if (light.slot < 0 || light.has_size) continue;
+      const bool far = light.params.kind == shared::kLightDirectional;
+      lights.push_back(&light);
+      places.push_back({far ? -glm::vec3(light.params.direction) : glm::vec3(light.params.position), far});
+    }
+  clear_ways = known->to(places);
+  for (std::size_t i = 0; i < lights.size(); ++i) lights[i]->clear_ways = clear_ways[i].get();
 }
 
 }  // namespace pinocchio

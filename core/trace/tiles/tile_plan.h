@@ -54,6 +54,7 @@ struct TilePlan {
   std::vector<LightGroup> further_lights, visible_lights;
   std::size_t most_casting, most_sized;  // casting lights of a group, and those of them with a size
   bool lights_in_reflection = false;     // some group has
+  std::vector<std::shared_ptr<ClearWays>> clear_ways;     // to visible_lights
   std::optional<EnvironmentLight> environment, backdrop;  // backdrop: the background, where it is a picture
   std::optional<CatcherPlane> catcher;                    // none: no shadows are caught
   std::shared_ptr<const Environment> behind_scene;        // kept for `backdrop`
@@ -68,6 +69,7 @@ struct TilePlan {
   void plan_further();
   void plan_sky();
   void plan_visible();
+  void find_clear_ways();
 };
 
 }  // namespace pinocchio

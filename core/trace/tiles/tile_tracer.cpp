@@ -188,7 +188,10 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
 // For the lights of one group.
 void TileTracer::make_room_for_shadows(std::size_t rays) {
   const ExtraColumns of_shadow{.medium = plan_->tints && extra_columns().medium};
-  for (std::size_t i = 0; i < plan_->most_casting; ++i) shadow_[i].make_room(rays, of_shadow);
+  for (std::size_t i = 0; i < plan_->most_casting; ++i) {
+    shadow_[i].make_room(rays, of_shadow);
+    clear_[i].make_room(plan_->clear_ways.empty() ? 0 : rays);
+  }
   // A sample of the environment, one along a lobe, and distant lights that the lobe meets.
   const std::size_t along_lobes = plan_->further.lobes ? plan_->most_sized : 0;
   const std::size_t hiding = plan_->further.prefiltered ? as_size(plan_->job.options.sky_occlusion) : 0;
@@ -202,6 +205,7 @@ void TileTracer::make_room_for_shadows(std::size_t rays) {
 void TileTracer::use_queues(Bounce& step) {
   step.corner = glm::uvec2(plan_->first + tile_.lo * plan_->out.scale);
   step.shadow = shadow_.data();
+  step.clear = clear_.data();
   step.ways_up = ways_up_.data();
   step.sky = &sky_;
   step.sky_ways_up = &sky_ways_up_;
@@ -270,25 +274,36 @@ void TileTracer::fire_shadows(const LightGroup& group, int generation, glm::vec4
   std::uint8_t* const mask = visible ? &mask_[as_size(group.byte) * kPixels] : nullptr;
   for (const BounceLight& light : group.lights) {
     if (light.slot < 0) continue;
-    const RayQueue& queue = shadow_[as_size(light.queue)];
-    if (queue.size == 0) continue;
-    if (blocked_.size() < queue.size + kQueuePad) blocked_.resize(2 * queue.size + kQueuePad);
-    const float reach = light.params.kind == shared::kLightDirectional ? kInfinity : 1.0f;
-    if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
-    ask_occluded(queue, reach, visible && plan_->visible.light_later ? &light : nullptr);
-    block_by_ways_up(ways_up_[as_size(light.queue)], generation);
-    if (visible)  // without a branch, which would be predicted badly at the edges of shadows
+    const RayQueue &queue = shadow_[as_size(light.queue)], &clear = clear_[as_size(light.queue)];
+    counts_.shadow += clear.size;
+    if (queue.size > 0) find_blocked(light, queue, generation);
+    if (visible) {  // without a branch, which would be predicted badly at the edges of shadows
       for (std::size_t i = 0; i < queue.size; ++i)
         mask[queue.pixel[i]] |= static_cast<std::uint8_t>(((blocked_[i] & 1u) ^ 1u) << light.queue);
+      for (std::size_t i = 0; i < clear.size; ++i)
+        mask[clear.pixel[i]] |= static_cast<std::uint8_t>(1u << light.queue);
+    }
     const bool apart = visible && plan_->out.sampled && light.has_size;
     glm::vec4* const of_lamps = &reflected_[kSampledPixels + kLampPixels];
-    if (plan_->tints) add_light_through_glass(queue, apart ? of_lamps : reflected_.data());
+    if (plan_->tints && queue.size > 0) add_light_through_glass(queue, apart ? of_lamps : reflected_.data());
     if (!adds && !apart) continue;
     glm::vec4* const to = apart ? of_lamps : radiance;
+    const auto add = [to](const RayQueue& rays, std::size_t i) {
+      to[rays.pixel[i]] += glm::vec4(rays.light[0][i], rays.light[1][i], rays.light[2][i], 0.0f);
+    };
     for (std::size_t i = 0; i < queue.size; ++i)
-      if (!blocked_[i])
-        to[queue.pixel[i]] += glm::vec4(queue.light[0][i], queue.light[1][i], queue.light[2][i], 0.0f);
+      if (!blocked_[i]) add(queue, i);
+    for (std::size_t i = 0; i < clear.size; ++i) add(clear, i);
   }
+}
+
+// Sets blocked_ for each ray to the light.
+void TileTracer::find_blocked(const BounceLight& light, const RayQueue& queue, int generation) {
+  if (blocked_.size() < queue.size + kQueuePad) blocked_.resize(2 * queue.size + kQueuePad);
+  const float reach = light.params.kind == shared::kLightDirectional ? kInfinity : 1.0f;
+  if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
+  ask_occluded(queue, reach, generation == 0 && plan_->visible.light_later ? &light : nullptr);
+  block_by_ways_up(ways_up_[as_size(light.queue)], generation);
 }
 
 // Black light is not written again where it is known to be there.

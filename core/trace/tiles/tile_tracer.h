@@ -75,6 +75,7 @@ class TileTracer {
   void light_points(const Bounce& step, int generation, std::span<const RayQueue> points,
                     const std::vector<LightGroup>& groups, glm::vec4* radiance);
   void fire_shadows(const LightGroup& group, int generation, glm::vec4* radiance);
+  void find_blocked(const BounceLight& light, const RayQueue& queue, int generation);
   void fire_at_environment(int generation);
   void fire_reflected(RayQueue& queue, float reach, const RayQueue& ways_up, int generation);
   void ask_occluded(const RayQueue& queue, float reach, const BounceLight* later = nullptr);
@@ -95,7 +96,7 @@ class TileTracer {
   RayQueue seen_;
   Generation rays_, next_;
   RayQueue diffuse_, next_diffuse_;
-  std::array<RayQueue, kLightGroup> shadow_, ways_up_;
+  std::array<RayQueue, kLightGroup> shadow_, clear_, ways_up_;
   RayQueue sky_, sky_ways_up_, lobe_lights_;
   RayQueue passing_points_, passing_, passing_ways_up_;  // shadow rays that pass glass, and where they start
   // By shadow ray. 0: nothing is in the way; 1: something, through which light may come (tinted_); 3: no

@@ -1,0 +1,346 @@
+// Shadow rays that are not traced, as nothing can be in their way: no ray from a triangle with a clear way is
+// blocked, and pictures have the same bits with and without.
+#include "core/bsp/clear/clear_ways.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <thread>
+
+#include "core/shade/surface.h"
+#include "core/trace/tiles/trace_tiles.h"
+#include "core/trace/view/view_params.h"
+#include "scenes/generator/mesh_builder.h"
+#include "tests/support/scenes.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr glm::ivec2 kSize{150, 90};  // tiles that are cut off on both sides
+
+Scene built(const std::function<void(MeshBuilder&)>& build) {
+  MeshData data;
+  MeshBuilder builder(data);
+  builder.use(Material{});
+  build(builder);
+  return Scene(std::move(data));
+}
+
+Scene ball() {
+  return built([](MeshBuilder& builder) { builder.sphere(glm::vec3(0.0f), 1.0f, 24); });
+}
+
+void move(Scene& scene, const std::function<void(glm::vec3&)>& by) {
+  MeshEdit mesh(scene);
+  std::ranges::for_each(mesh->positions, by);
+}
+
+Scene jagged_ball() {
+  Scene scene = ball();
+  Random random(41);
+  move(scene, [&](glm::vec3& p) { p *= random.between(0.9f, 1.1f); });
+  return scene;
+}
+
+Scene placed(Scene scene, float scale, const glm::vec3& at) {
+  move(scene, [&](glm::vec3& p) { p = at + scale * p; });
+  return scene;
+}
+
+// A plate that hardly floats: less than a ray's offset, and more.
+Scene plate_at(float height) {
+  Scene scene = plate_over_floor();
+  move(scene, [&](glm::vec3& p) { p.y = p.y > 0.0f ? height : p.y; });
+  return scene;
+}
+
+// Neighbours at all angles, some towards the light and some away from it, and thin ones.
+Scene folds() {
+  return built([](MeshBuilder& builder) {
+    for (int i = 1; i < 60; ++i) {
+      const float angle = 0.0525f * static_cast<float>(i), z = static_cast<float>(i);
+      const float width = i % 3 == 0 ? 1e-3f : 1.0f;
+      builder.quad({0, 0, z}, {1, 0, z}, {1, 0, z + 0.5f}, {0, 0, z + 0.5f});
+      const glm::vec3 side(1.0f + width * std::cos(angle), width * std::sin(angle), 0.0f);
+      builder.quad({1, 0, z}, {side.x, side.y, z}, {side.x, side.y, z + 0.5f}, {1, 0, z + 0.5f});
+    }
+  });
+}
+
+std::vector<Scene> meshes() {
+  std::vector<Scene> all{random_soup(300, 0.5f, 7),
+                         random_soup(800, 0.1f, 3),
+                         ball(),
+                         jagged_ball(),
+                         plate_over_floor(),
+                         plate_at(1e-2f),
+                         plate_at(1e-6f),
+                         plate_at(1e-8f),
+                         placed(ball(), 1e4f, {}),
+                         folds()};
+  all.push_back(placed(jagged_ball(), 1e-3f, {}));
+  all.push_back(placed(random_soup(300, 0.5f, 5), 1.0f, {1000.0f, 2.0f, -300.0f}));
+  all.push_back(placed(jagged_ball(), 0.01f, {0.0f, 50.0f, 0.0f}));
+  return all;
+}
+
+Bounds bounds_of(const Mesh& mesh) {
+  Bounds box;
+  for (const glm::vec3& p : mesh.positions) box.add(p);
+  return box;
+}
+
+// Around the mesh, in it, on it, and far away.
+std::vector<LightPlace> lights_for(const Mesh& mesh) {
+  const Bounds box = bounds_of(mesh);
+  Random random(5);
+  std::vector<LightPlace> lights{{{0, 1, 0}, true}, {{1, 0, 0}, true}};
+  for (int i = 0; i < 3; ++i) {
+    lights.push_back({glm::normalize(random_point(random, 1.0f)), true});
+    lights.push_back({box.center() + box.diagonal() * random_point(random, 1.0f), false});
+    lights.push_back({box.center() + 0.2f * box.diagonal() * random_point(random, 1.0f), false});
+  }
+  lights.push_back({box.center() + 1e4f * box.diagonal() * random_point(random, 1.0f), false});
+  lights.push_back({mesh.positions.front(), false});
+  return lights;
+}
+
+// Weights inside, many of them at its rim.
+glm::vec3 weights_inside(Random& random) {
+  constexpr float kLeast = kInnerWeight + 0x1p-16f;
+  glm::vec3 w{random.between(0, 1), random.between(0, 1), random.between(0, 1)};
+  if (random.next() % 2 == 0) w[static_cast<int>(random.next() % 3)] = 0.0f;
+  if (random.next() % 4 == 0) w[static_cast<int>(random.next() % 3)] = 0.0f;
+  const float sum = std::max(w.x + w.y + w.z, 1e-3f);
+  return kLeast + w / sum * (1.0f - 3.0f * kLeast);
+}
+
+TEST(ClearWays, NoRayFromTheInsideIsBlocked) {
+  std::size_t clear = 0;
+  for (const Scene& scene : meshes()) {
+    const Mesh& mesh = *scene.mesh;
+    const Tracer tracer(scene.mesh, {}, Isa::scalar);
+    ASSERT_TRUE(ClearWaysToLights::serves(tracer.trees()));
+    Random random(17);
+    std::ptrdiff_t blocked = 0;
+    for (const LightPlace& light : lights_for(mesh)) {
+      std::vector<Ray> rays;
+      for (std::uint32_t id = 0; id < mesh.triangles.size(); ++id) {
+        if (!has_clear_way(tracer.trees(), id, light)) continue;
+        ++clear;
+        for (int i = 0; i < 20; ++i) {
+          const glm::vec3 weights = weights_inside(random), from = random_point(random, 1.0f);
+          const BareSurface s = bare_surface_at(mesh, id, from, weights, tracer.offset());
+          const glm::vec3 towards = light.far ? light.at : light.at - s.p_world;
+          const glm::vec3 origin = offset_origin(s, towards);
+          rays.push_back({origin, light.far ? kInfinity : 1.0f, light.far ? light.at : light.at - origin});
+        }
+      }
+      std::vector<std::uint8_t> hidden(rays.size());
+      tracer.occluded(rays, hidden);
+      blocked += std::ranges::count(hidden, 1);
+    }
+    EXPECT_EQ(blocked, 0) << mesh.triangles.size() << " triangles";
+  }
+  EXPECT_GT(clear, 5000u);
+}
+
+TEST(ClearWays, AreFoundWhereNothingIsInTheWay) {
+  const Scene round = ball(), plates = plate_over_floor();
+  const Tracer of_ball(round.mesh), of_plates(plates.mesh);
+  const LightPlace sun{{0, 1, 0}, true}, lamp{{0, 5, 0}, false}, below{{0, 0.5f, 0}, false};
+  std::size_t clear = 0, facing = 0;
+  for (std::uint32_t id = 0; id < round.mesh->triangles.size(); ++id) {
+    const glm::uvec3 corners = round.mesh->triangles[id];
+    float height = 0.0f;
+    for (const std::uint32_t corner : {corners.x, corners.y, corners.z})
+      height += round.mesh->positions[corner].y;
+    const bool is_clear = has_clear_way(of_ball.trees(), id, sun);
+    facing += height > 0.3f ? 1 : 0;
+    clear += is_clear && height > 0.3f ? 1 : 0;
+    EXPECT_FALSE(is_clear && height < 0.0f);
+  }
+  EXPECT_EQ(clear, facing);
+  for (const std::uint32_t floor : {0u, 1u}) {
+    EXPECT_FALSE(has_clear_way(of_plates.trees(), floor, sun));
+    EXPECT_FALSE(has_clear_way(of_plates.trees(), floor, lamp));
+    EXPECT_TRUE(has_clear_way(of_plates.trees(), floor, below));
+  }
+  for (const std::uint32_t plate : {2u, 3u}) {
+    EXPECT_TRUE(has_clear_way(of_plates.trees(), plate, sun));
+    EXPECT_TRUE(has_clear_way(of_plates.trees(), plate, lamp));
+    EXPECT_TRUE(has_clear_way(of_plates.trees(), plate, below));
+  }
+}
+
+struct Drawn {
+  Image<std::uint32_t> ids;
+  MaskImage mask;
+  Image<glm::vec3> reflection;
+  Image<glm::vec4> color;
+  RayCounts rays;
+};
+
+// The whole picture, or hybrid's part for given ids.
+Drawn draw(const TraceJob& job, const Image<std::uint32_t>* seen = nullptr) {
+  Drawn drawn;
+  TileOutputs out;
+  out.size = kSize;
+  out.seen = seen;
+  out.mask_bits = MaskImage::bits_for(static_cast<int>(casting_lights(job.scene).size()));
+  out.mask = &drawn.mask;
+  out.depth = 4;
+  out.reflection = &drawn.reflection;
+  if (!seen) {
+    out.ids = &drawn.ids;
+    out.color = &drawn.color;
+  }
+  drawn.rays = trace_tiles(job, out).rays;
+  return drawn;
+}
+
+template <class T>
+bool same_bits(const Image<T>& a, const Image<T>& b) {
+  return std::ranges::equal(std::as_bytes(a.pixels()), std::as_bytes(b.pixels()));
+}
+
+void expect_same(const Drawn& a, const Drawn& b) {
+  EXPECT_TRUE(same_bits(a.ids, b.ids) && same_bits(a.reflection, b.reflection) &&
+              same_bits(a.color, b.color));
+  EXPECT_TRUE(std::ranges::equal(a.mask.bytes(), b.mask.bytes()));
+  EXPECT_EQ(a.rays.shadow, b.rays.shadow);
+}
+
+// Ten lights: more than a byte of the mask has.
+void add_lights(Scene& scene) {
+  const Bounds box = bounds_of(*scene.mesh);
+  Random random(23);
+  for (int i = 0; i < 10; ++i) {
+    Light light = point_light(box.center() + box.diagonal() * random_point(random, 1.0f));
+    if (i % 3 == 1) {
+      light.kind = Light::Kind::directional;
+      light.direction = glm::normalize(random_point(random, 1.0f));
+    } else if (i % 3 == 2) {
+      light.kind = Light::Kind::spot;
+      light.direction = glm::normalize(box.center() - light.position);
+      light.cos_inner = 0.95f;
+      light.cos_outer = 0.8f;
+    }
+    scene.lights.push_back(light);
+  }
+}
+
+std::vector<Scene> lit_scenes() {
+  std::vector<Scene> all = meshes();
+  for (const std::string& name : own_scenes()) all.push_back(load_or_die(source_path(name)));
+  for (Scene& scene : all) {
+    add_lights(scene);
+    MeshEdit mesh(scene);
+    Material glass = mesh->materials[0];
+    glass.transmittance = glm::vec3(0.9f);
+    glass.ior = 1.5f;
+    mesh->materials.push_back(glass);
+    for (std::size_t i = 0; i < mesh->triangles.size(); i += 7)
+      mesh->triangle_materials[i] = static_cast<std::uint32_t>(mesh->materials.size() - 1);
+  }
+  return all;
+}
+
+TEST(ClearWays, PicturesKeepTheirBits) {
+  Workers workers(2);
+  std::size_t turn = 0;
+  for (const Scene& scene : lit_scenes()) {
+    const Camera camera = scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front();
+    const Terminator terminator = kTerminators[turn++ % kTerminators.size()];
+    for (const Isa isa : supported_isas()) {
+      const Tracer tracer(scene.mesh, {}, isa);
+      EXPECT_EQ(tracer.clear_ways() != nullptr, isa != Isa::scalar);
+      TraceJob job{scene, tracer, workers, view_params(camera, kSize)};
+      job.options.terminator = terminator;
+      job.options.clear_ways = false;
+      const Drawn expected = draw(job), hybrid = draw(job, &expected.ids);
+      job.options.clear_ways = true;
+      for (int frame = 0; frame < 3; ++frame) {
+        SCOPED_TRACE(frame);
+        expect_same(draw(job), expected);
+        expect_same(draw(job, &expected.ids), hybrid);
+      }
+    }
+  }
+}
+
+TEST(ClearWays, LightsThatMoveAreAskedAnew) {
+  Scene scene = jagged_ball();
+  add_lights(scene);
+  const Tracer tracer(scene.mesh);
+  Workers workers(2);
+  TraceJob job{scene, tracer, workers, view_params(camera_for_whole_scene(scene), kSize)};
+  for (int frame = 0; frame < 6; ++frame) {
+    for (Light& light : scene.lights) light.position += glm::vec3(0.3f, -0.2f, 0.1f);
+    job.options.clear_ways = true;
+    const Drawn drawn = draw(job);
+    job.options.clear_ways = false;
+    expect_same(drawn, draw(job));
+  }
+}
+
+TEST(ClearWays, KeepWhatIsKnownOfTheLightsThatStay) {
+  const Scene scene = ball();
+  const auto trees = std::make_shared<const SceneTrees>(Tracer(scene.mesh).trees());
+  ClearWaysToLights known(trees);
+  const LightPlace first{{0, 1, 0}, true}, second{{0, 5, 0}, false}, third{{0, 5, 0}, true};
+  const auto before = known.to(std::vector{first, second});
+  const auto after = known.to(std::vector{third, second});
+  EXPECT_EQ(after[1], before[1]);
+  EXPECT_NE(after[0], before[0]);
+  EXPECT_NE(after[0], before[1]);
+  EXPECT_NE(known.to(std::vector{first})[0], before[0]);
+  const auto many = known.to(std::vector<LightPlace>(40, first));
+  EXPECT_TRUE(many.front());
+  EXPECT_FALSE(many.back());
+}
+
+TEST(ClearWays, AreSearchedOnceTheRaysPayForIt) {
+  const Scene scene = ball();
+  const Tracer tracer(scene.mesh);
+  const LightPlace sun{{0, 1, 0}, true};
+  ClearWays ways(std::make_shared<const SceneTrees>(tracer.trees()), sun);
+  std::uint32_t top = 0;
+  while (!has_clear_way(tracer.trees(), top, sun)) ++top;
+  int asked = 1;
+  while (!ways.is_clear(top, 16) && asked < 100) ++asked;
+  EXPECT_EQ(asked, 8);
+  EXPECT_TRUE(ways.is_clear(top, 1));
+}
+
+TEST(ClearWays, AreNotKnownWhereRaysStartElsewhereOrTestsAreRounded) {
+  const Scene scene = ball();
+  EXPECT_TRUE(Tracer(scene.mesh).clear_ways());
+  EXPECT_FALSE(Tracer(scene.mesh, {}, {}, OffsetMethod::fixed).clear_ways());
+  BuildOptions rounded;
+  rounded.triangle_test = TriangleTest::moeller_trumbore;
+  EXPECT_FALSE(Tracer(scene.mesh, rounded).clear_ways());
+}
+
+TEST(ClearWays, MayBeAskedFromManyThreads) {
+  const Scene scene = jagged_ball();
+  const Tracer tracer(scene.mesh);
+  ClearWaysToLights known(std::make_shared<const SceneTrees>(tracer.trees()));
+  const std::vector<LightPlace> lights{{{0, 1, 0}, true}, {{1, 0, 0}, true}};
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&] {
+      const auto ways = known.to(lights);
+      for (int round = 0; round < 10; ++round)
+        for (std::uint32_t id = 0; id < scene.mesh->triangles.size(); ++id)
+          for (std::size_t i = 0; i < lights.size(); ++i)
+            EXPECT_TRUE(!ways[i]->is_clear(id, 16) || has_clear_way(tracer.trees(), id, lights[i]));
+    });
+  for (std::thread& thread : threads) thread.join();
+}
+
+}  // namespace
+}  // namespace pinocchio
