@@ -32,7 +32,7 @@ struct Options {
   std::string tree = "sah", test{triangle_test_name(BuildOptions{}.triangle_test)};
   int triangles = 0, repeat = 7, build_repeat = 3, threads = 0;
   bool mirror_all = false, robust = false, no_pass = false, no_speeds = false, frame = false,
-       known_eye = false, processor_time = false, animation = false;
+       known_eye = false, processor_time = false, animation = false, every_shadow_ray = false;
   std::vector<int> size{800, 600};
   MotionOptions motion{.moving = 0};
 };
@@ -71,6 +71,8 @@ void add_options(CLI::App& program, Options& o) {
   program.add_flag("--no-pass", o.no_pass, "leave out the whole shadow pass");
   program.add_flag("--no-speeds", o.no_speeds, "leave out the speeds by kind of ray");
   program.add_flag("--frame", o.frame, "add whole frames, with the materials as they are (or --mirror-all)");
+  program.add_flag("--every-shadow-ray", o.every_shadow_ray,
+                   "whole frames trace shadow rays that are known to be free, too");
   program.add_flag("--processor-time", o.processor_time,
                    "times of the process's processors, not of the clock (a busy machine, --threads 1)");
   program.add_flag(
@@ -192,7 +194,8 @@ void run(const Options& o) {
   if (all.count() > 1) on.push_back(&all);
   if (o.frame)
     for (const auto& tracer : tracers) {
-      const std::vector<WholeFrame> frames = measure_frames(scene, *tracer, embree, size, on, o.repeat);
+      const std::vector<WholeFrame> frames =
+          measure_frames(scene, *tracer, embree, size, on, o.repeat, !o.every_shadow_ray);
       report.frames.insert(report.frames.end(), frames.begin(), frames.end());
     }
   report.all_mirrors |= make_mirrors(scene, false);

@@ -20,7 +20,8 @@ struct Times {
 }  // namespace
 
 std::vector<WholeFrame> measure_frames(const Scene& scene, const Tracer& tracer, const EmbreeSide& embree,
-                                       glm::ivec2 size, const std::vector<Workers*>& on, int repeat) {
+                                       glm::ivec2 size, const std::vector<Workers*>& on, int repeat,
+                                       bool clear_ways) {
   const shared::ViewParams view = first_view(scene, size);
   const std::vector<RaySet> sets = frame_ray_sets(scene, tracer, size);
   const TextureSamples textures(scene, tracer, view, sets);
@@ -33,6 +34,7 @@ std::vector<WholeFrame> measure_frames(const Scene& scene, const Tracer& tracer,
   for (Workers* workers : on) {
     TraceJob job{scene, tracer, *workers, view};
     job.options.light_cutoff = cutoff;
+    job.options.clear_ways = clear_ways;
     Drawing raytrace(job, size), hybrid(job, size, &raytrace.ids);
     std::vector<double> raytrace_s, hybrid_s, textures_s;
     std::vector<Times> theirs(sets.size());

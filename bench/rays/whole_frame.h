@@ -24,9 +24,11 @@ struct WholeFrame {
   [[nodiscard]] double ratio_with_textures() const { return ours_ms / (embree_rays_ms + textures_ms); }
 };
 
-// Measures the scene's first camera at `size` pixels, ours and Embree interleaved, `repeat` times.
+// Measures the scene's first camera at `size` pixels, ours and Embree interleaved, `repeat` times. Embree
+// traces all rays; ours those that are not known to be free, or all without clear_ways.
 [[nodiscard]] std::vector<WholeFrame> measure_frames(const Scene& scene, const Tracer& tracer,
                                                      const EmbreeSide& embree, glm::ivec2 size,
-                                                     const std::vector<Workers*>& on, int repeat);
+                                                     const std::vector<Workers*>& on, int repeat,
+                                                     bool clear_ways);
 
 }  // namespace pinocchio::bench

@@ -20,6 +20,9 @@ using Corners = std::array<glm::dvec3, 3>;
 // roundings of a normal or of a ray may put the ray on the other side of its own triangle.
 constexpr double kLeastSine = 1e-3, kLeastCosine = 1.0 / 64.0;
 
+// Of the scene's greatest coordinate: beyond these, quick tests would overflow, or their margin vanish.
+constexpr double kLeastReach = 1e-25, kMostReach = 1e30;
+
 struct Plane {
   glm::dvec3 normal{0.0};  // unit
   double at = 0.0;         // of the points on it, along the normal
@@ -81,7 +84,8 @@ class Shaft {
     // Of a ray's offset and its origin's and its direction's rounding at most half of this.
     const double size = std::max({glm::length(ab), glm::length(ac), glm::length(ac - ab)});
     shaft.margin_ = 0x1p-24 * (64.0 * size + 11.0 * near + 2.0 * distance);
-    shaft.quick_margin_ = static_cast<float>(shaft.margin_ + 0x1p-24 * 64.0 * reach);
+    shaft.quick_margin_ = static_cast<float>(shaft.margin_ + 0x1p-24 * 32.0 * reach);
+    shaft.box_margin_ = static_cast<float>(shaft.margin_ + 0x1p-14 * reach);
     shaft.set_inside(triangle);
     shaft.base_ = {normal, glm::dot(normal, triangle[0])};
     for (std::size_t i = 0; i < 3; ++i) shaft.sides_[i] = *shaft.beside_edge(shaft.inside_, i);
@@ -92,7 +96,7 @@ class Shaft {
 
   // A box, by how low it is above each side.
   [[nodiscard]] const FourPlanes& quick_sides() const { return quick_sides_; }
-  [[nodiscard]] bool misses(Four lowest) const { return any(lowest > all_of(quick_margin_)); }
+  [[nodiscard]] bool misses(Four lowest) const { return any(lowest > all_of(box_margin_)); }
 
   // Some plane is between it and the triangle, with the margin.
   [[nodiscard]] bool misses(const std::array<glm::vec3, 3>& other) const {
@@ -164,7 +168,8 @@ class Shaft {
   FourPlanes quick_sides_;
   glm::dvec3 light_;
   double margin_ = 0.0;
-  float quick_margin_ = 0.0f;  // the same for quick tests, which round
+  // The same for quick tests, which round, and for boxes, whose heights are summed down the tree.
+  float quick_margin_ = 0.0f, box_margin_ = 0.0f;
   bool far_ = false;
 };
 
@@ -237,6 +242,7 @@ class Walk {
 bool has_clear_way(const SceneTrees& trees, std::uint32_t triangle, const LightPlace& light) {
   const Bounds& box = trees.still->bounds;
   const double reach = std::max(greatest(glm::dvec3(box.lo)), greatest(glm::dvec3(box.hi)));
+  if (!(kLeastReach < reach && reach < kMostReach)) return false;
   const std::optional<Shaft> shaft = Shaft::of(corners_of(trees, triangle), light, reach);
   return shaft && Walk(trees, triangle, *shaft).meets_nothing();
 }

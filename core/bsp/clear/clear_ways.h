@@ -33,7 +33,7 @@ class ClearWays {
 
  private:
   // Of a triangle's state: below kEnough it is the number of rays.
-  static constexpr std::uint8_t kEnough = 128, kHidden = 254, kClear = 255;
+  static constexpr std::uint8_t kEnough = 64, kHidden = 254, kClear = 255;
 
   bool count(std::uint32_t triangle, unsigned rays);
 
