@@ -108,9 +108,11 @@ struct Bounce {
   SampledPoint* points = nullptr;  // a tile's pixels: the surfaces, for the filter; null: not wanted
   bool lights_alone = false;       // an earlier step had the surfaces of these rays, and other lights
 
-  [[nodiscard]] bool tints_at_once() const { return tints && !light_later; }
+  [[nodiscard, gnu::always_inline]] bool tints_at_once() const { return tints && !light_later; }
   // True if lights that are too faint get no shadow ray.
-  [[nodiscard]] bool cuts_light() const { return visible && options->light_cutoff > 0.0f; }
+  [[nodiscard, gnu::always_inline]] bool cuts_light() const {
+    return visible && options->light_cutoff > 0.0f;
+  }
 };
 
 // The points that rays see, a column each, with room behind the last ray for a packet; null: not wanted.
