@@ -93,6 +93,10 @@ class MaskImage {
         std::memcpy(&packed, &pixels[first], 8);
       else
         for (std::size_t i = first + count; i-- > first;) packed = packed << 8 | pixels[i];
+      if (bits_ == 1) {  // byte i, times 2^(56 - 7 i), puts its bit at 56 + i, and no two sums meet
+        row[at++] = static_cast<std::uint8_t>(packed * 0x0102040810204080u >> 56);
+        continue;
+      }
       // 8 pixels of 8 bits become 4 of 16, 2 of 32, and one of 64, each with so many used bits.
       for (int width = 8, used = bits_; width < 64; width *= 2, used *= 2)
         packed = (packed | packed >> (width - used)) & lowest_bits(used * 2, width * 2);
