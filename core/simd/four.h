@@ -50,6 +50,12 @@ inline Four min(Four a, Four b) {
 inline Four max(Four a, Four b) {
   return a > b ? a : b;
 }
+// True if some lane of a mask is set.
+inline bool any(FourInts mask) {
+  using Two [[gnu::vector_size(16)]] = std::int64_t;
+  const Two halves = Two(mask);
+  return (halves[0] | halves[1]) != 0;
+}
 inline Four to_floats(FourInts v) {
   return __builtin_convertvector(v, Four);
 }

@@ -53,10 +53,6 @@ struct FourPlanes {
   }
 };
 
-bool any(FourInts lanes) {
-  return (lanes[0] | lanes[1] | lanes[2] | lanes[3]) != 0;
-}
-
 // What all ways from the inside of a triangle to a light have in them: a prism without an end, or a pyramid
 // whose tip is the light.
 class Shaft {
