@@ -8,6 +8,7 @@
 #include "pinocchio/layers.h"
 #include "tests/support/draw.h"
 #include "tests/support/gl_test.h"
+#include "tests/support/same_bits.h"
 
 namespace pinocchio {
 namespace {
@@ -90,10 +91,6 @@ double share_off(const Image<glm::vec4>& a, const Image<glm::vec4>& b, float by)
   for (std::size_t i = 0; i < a.pixels().size(); ++i)
     off += glm::any(glm::greaterThan(glm::abs(a[i] - b[i]), glm::vec4(by))) ? 1 : 0;
   return static_cast<double>(off) / static_cast<double>(a.pixels().size());
-}
-
-bool same_bits(const Image<glm::vec4>& a, const Image<glm::vec4>& b) {
-  return std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
 }
 
 TEST(DenoisedPicture, FewSamplesAreNearTheTruth) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "core/math/components.h"
 #include "core/simd/four.h"
 #include "pinocchio/conversion.h"
 #include "pinocchio/ray.h"
@@ -16,11 +17,13 @@ namespace {
 
 using Corners = std::array<glm::dvec3, 3>;
 
-// Of the angle between two edges its sine, of that between normal and light its cosine: below these, the
-// roundings of a normal or of a ray may put the ray on the other side of its own triangle.
+// A triangle is given up if the sine of the angle between two of its edges, or the cosine of the angle
+// between its normal and the light, is less than this: rounding could then start a ray on the wrong side of
+// it.
 constexpr double kLeastSine = 1e-3, kLeastCosine = 1.0 / 64.0;
 
-// Of the scene's greatest coordinate: beyond these, quick tests would overflow, or their margin vanish.
+// All triangles are given up if the scene's largest coordinate is not between these: in single precision the
+// quick tests would overflow, or their margin would round to 0.
 constexpr double kLeastReach = 1e-25, kMostReach = 1e30;
 
 struct Plane {
@@ -29,11 +32,6 @@ struct Plane {
 
   [[nodiscard]] double above(const glm::dvec3& p) const { return glm::dot(normal, p) - at; }
 };
-
-double greatest(const glm::dvec3& p) {
-  const glm::dvec3 size = glm::abs(p);
-  return std::max({size.x, size.y, size.z});
-}
 
 double least_above(const Plane& plane, const Corners& corners) {
   return std::min({plane.above(corners[0]), plane.above(corners[1]), plane.above(corners[2])});
@@ -53,8 +51,8 @@ struct FourPlanes {
   }
 };
 
-// What all ways from the inside of a triangle to a light have in them: a prism without an end, or a pyramid
-// whose tip is the light.
+// The space between the inside of a triangle and a light: a pyramid with the light at its tip, or, where the
+// light is far away, a prism without an end.
 class Shaft {
  public:
   // None: the triangle is too thin, or the light too near its plane. reach: the greatest coordinate.
@@ -75,9 +73,9 @@ class Shaft {
       const glm::dvec3 way = shaft.way_from(corner);
       if (!(kLeastCosine * glm::length(way) < glm::dot(normal, way))) return {};
       distance = std::max(distance, light.far ? 0.0 : glm::length(way));
-      near = std::max(near, greatest(corner));
+      near = std::max(near, largest_component(corner));
     }
-    // Of a ray's offset and its origin's and its direction's rounding at most half of this.
+    // Twice as far as a ray can be off: by its offset, and by the rounding of its origin and direction.
     const double size = std::max({glm::length(ab), glm::length(ac), glm::length(ac - ab)});
     shaft.margin_ = 0x1p-24 * (64.0 * size + 11.0 * near + 2.0 * distance);
     shaft.quick_margin_ = static_cast<float>(shaft.margin_ + 0x1p-24 * 32.0 * reach);
@@ -164,7 +162,8 @@ class Shaft {
   FourPlanes quick_sides_;
   glm::dvec3 light_;
   double margin_ = 0.0;
-  // The same for quick tests, which round, and for boxes, whose heights are summed down the tree.
+  // The margins of the quick tests are larger, as single precision rounds more; for boxes most, as their
+  // heights above the sides are added up node by node.
   float quick_margin_ = 0.0f, box_margin_ = 0.0f;
   bool far_ = false;
 };
@@ -237,7 +236,7 @@ class Walk {
 
 bool has_clear_way(const SceneTrees& trees, std::uint32_t triangle, const LightPlace& light) {
   const Bounds& box = trees.still->bounds;
-  const double reach = std::max(greatest(glm::dvec3(box.lo)), greatest(glm::dvec3(box.hi)));
+  const double reach = std::max(largest_component(glm::dvec3(box.lo)), largest_component(glm::dvec3(box.hi)));
   if (!(kLeastReach < reach && reach < kMostReach)) return false;
   const std::optional<Shaft> shaft = Shaft::of(corners_of(trees, triangle), light, reach);
   return shaft && Walk(trees, triangle, *shaft).meets_nothing();

@@ -14,14 +14,14 @@
 namespace pinocchio {
 
 // Which triangles have a clear way to one light (clear_way.h), found as rays ask for it. Shadow rays from
-// these need not be traced. May be called from many threads; what it answers differs from call to call, and
-// no ray's result does.
+// these need not be traced. May be called from many threads, in any order: the answer to a call depends on
+// what was asked before, but a shadow ray's result is the same either way.
 class ClearWays {
  public:
   ClearWays(std::shared_ptr<const SceneTrees> trees, const LightPlace& light);
 
-  // Whether the way is known to be clear. rays: how many ask. Once a triangle's have been so many that they
-  // took the time of the search, it is searched.
+  // True if the way is known to be clear. rays: how many rays ask now. The call with which a triangle's rays
+  // reach kEnough searches: by then, tracing them has taken about as long as a search takes.
   [[nodiscard, gnu::always_inline]] bool is_clear(std::uint32_t triangle, unsigned rays) {
     const std::uint8_t known = known_[triangle].load(std::memory_order_relaxed);
     if (known < kEnough) [[unlikely]]
@@ -32,7 +32,7 @@ class ClearWays {
   [[nodiscard]] const LightPlace& light() const { return light_; }
 
  private:
-  // Of a triangle's state: below kEnough it is the number of rays.
+  // A triangle's state: the number of rays that have asked, while that is below kEnough; then the answer.
   static constexpr std::uint8_t kEnough = 64, kHidden = 254, kClear = 255;
 
   bool count(std::uint32_t triangle, unsigned rays);

@@ -92,7 +92,7 @@ inline void put(const Vec& v, float* const (&columns)[3], std::size_t i) {
   v.z.store(columns[2] + i);
 }
 
-// Appends the rays of `lanes` to the queue.
+// Appends to the queue what the rays of `lanes` carry, and their pixels; with append(), the rays.
 inline void append_light(const Vec& light, Int pixel, Mask lanes, RayQueue& queue) {
   const std::size_t i = queue.size;
   store_packed(queue.light[0] + i, light.x, lanes);

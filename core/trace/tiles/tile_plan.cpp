@@ -215,7 +215,7 @@ void TilePlan::plan_visible() {
                         !visible.lobes && !out.sampled && out.indirect == 0;
 }
 
-// Where all rays are looked at, all are made.
+// With on_rays the caller wants to see every ray, so none is left out.
 void TilePlan::find_clear_ways() {
   ClearWaysToLights* const known = job.tracer.clear_ways();
   if (!known || !job.options.clear_ways || out.on_rays) return;

@@ -3,23 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "bench/one_ray/passes.h"
 #include "bench/one_ray/surface_at.h"
 #include "core/trace/view/view_params.h"
 #include "pinocchio/view.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
 namespace {
 
 constexpr glm::ivec2 kLayerSize{75, 45};  // tiles that are cut off on both sides
-
-template <class T>
-bool same_bits(const Image<T>& a, const Image<T>& b) {
-  return std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
-}
 
 struct Points {
   Image<float> depth{kLayerSize, kInfinity};

@@ -14,6 +14,8 @@
 #include "core/trace/tiles/trace_tiles.h"
 #include "core/trace/view/view_params.h"
 #include "scenes/generator/mesh_builder.h"
+#include "tests/support/drawn_tiles.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
@@ -87,15 +89,9 @@ std::vector<Scene> meshes() {
   return all;
 }
 
-Bounds bounds_of(const Mesh& mesh) {
-  Bounds box;
-  for (const glm::vec3& p : mesh.positions) box.add(p);
-  return box;
-}
-
 // Around the mesh, in it, on it, and far away.
 std::vector<LightPlace> lights_for(const Mesh& mesh) {
-  const Bounds box = bounds_of(mesh);
+  const Bounds box = mesh.bounds();
   Random random(5);
   std::vector<LightPlace> lights{{{0, 1, 0}, true}, {{1, 0, 0}, true}};
   for (int i = 0; i < 3; ++i) {
@@ -191,38 +187,12 @@ TEST(ClearWays, AreNotFoundWhereFloatsEnd) {
   EXPECT_FALSE(any_clear(1e32f));
 }
 
-struct Drawn {
-  Image<std::uint32_t> ids;
-  MaskImage mask;
-  Image<glm::vec3> reflection;
-  Image<glm::vec4> color;
-  RayCounts rays;
-};
-
-// The whole picture, or hybrid's part for given ids.
-Drawn draw(const TraceJob& job, const Image<std::uint32_t>* seen = nullptr) {
-  Drawn drawn;
-  TileOutputs out;
-  out.size = kSize;
-  out.seen = seen;
-  out.mask_bits = MaskImage::bits_for(static_cast<int>(casting_lights(job.scene).size()));
-  out.mask = &drawn.mask;
-  out.depth = 4;
-  out.reflection = &drawn.reflection;
-  if (!seen) {
-    out.ids = &drawn.ids;
-    out.color = &drawn.color;
-  }
-  drawn.rays = trace_tiles(job, out).rays;
-  return drawn;
+// The whole picture; for given ids hybrid's part, the mask and mirrored light.
+DrawnTiles draw(const TraceJob& job, const Image<std::uint32_t>* seen = nullptr) {
+  return draw_tiles(job, kSize, 4, seen, seen == nullptr);
 }
 
-template <class T>
-bool same_bits(const Image<T>& a, const Image<T>& b) {
-  return std::ranges::equal(std::as_bytes(a.pixels()), std::as_bytes(b.pixels()));
-}
-
-void expect_same(const Drawn& a, const Drawn& b) {
+void expect_same(const DrawnTiles& a, const DrawnTiles& b) {
   EXPECT_TRUE(same_bits(a.ids, b.ids) && same_bits(a.reflection, b.reflection) &&
               same_bits(a.color, b.color));
   EXPECT_TRUE(std::ranges::equal(a.mask.bytes(), b.mask.bytes()));
@@ -231,7 +201,7 @@ void expect_same(const Drawn& a, const Drawn& b) {
 
 // Ten lights: more than a byte of the mask has.
 void add_lights(Scene& scene) {
-  const Bounds box = bounds_of(*scene.mesh);
+  const Bounds box = scene.mesh->bounds();
   Random random(23);
   for (int i = 0; i < 10; ++i) {
     Light light = point_light(box.center() + box.diagonal() * random_point(random, 1.0f));
@@ -276,7 +246,7 @@ TEST(ClearWays, PicturesKeepTheirBits) {
       TraceJob job{scene, tracer, workers, view_params(camera, kSize)};
       job.options.terminator = terminator;
       job.options.clear_ways = false;
-      const Drawn expected = draw(job), hybrid = draw(job, &expected.ids);
+      const DrawnTiles expected = draw(job), hybrid = draw(job, &expected.ids);
       job.options.clear_ways = true;
       for (int frame = 0; frame < 3; ++frame) {
         SCOPED_TRACE(frame);
@@ -296,7 +266,7 @@ TEST(ClearWays, LightsThatMoveAreAskedAnew) {
   for (int frame = 0; frame < 6; ++frame) {
     for (Light& light : scene.lights) light.position += glm::vec3(0.3f, -0.2f, 0.1f);
     job.options.clear_ways = true;
-    const Drawn drawn = draw(job);
+    const DrawnTiles drawn = draw(job);
     job.options.clear_ways = false;
     expect_same(drawn, draw(job));
   }

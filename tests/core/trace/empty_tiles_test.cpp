@@ -1,6 +1,5 @@
 // Tiles whose rays come near nothing are not traced, and black light is not written twice: every picture has
 // the bits that it has otherwise.
-#include <cstring>
 
 #include "core/parallel/tiles.h"
 #include "core/trace/tiles/trace_tiles.h"
@@ -9,6 +8,7 @@
 #include "pinocchio/animation.h"
 #include "pinocchio/view.h"
 #include "tests/support/copies.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
@@ -31,11 +31,6 @@ Drawn drawn(const TraceJob& job, bool all_rays) {
   if (all_rays) out.on_rays = [](const RayBatch&) {};
   result.rays = trace_tiles(job, out).rays;
   return result;
-}
-
-template <class T>
-bool same_bits(const Image<T>& a, const Image<T>& b) {
-  return std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
 }
 
 // Near and far, within the scene and beside it, through lenses of all lengths, along axes, and parallel.

@@ -1,10 +1,10 @@
 // Hybrid's part of a frame asks textures only where that may change the picture: against the same with all
 // textures asked.
-#include <cstring>
 
 #include "core/scene/gltf/material_from_surface.h"
 #include "core/trace/tiles/trace_tiles.h"
 #include "tests/core/trace/lane_probe.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/scenes.h"
 #include "tests/support/shade.h"
 
@@ -84,11 +84,6 @@ Traced traced(TraceJob job, float light_cutoff, Image<std::uint32_t>& ids) {
   trace_tiles(job, out);
   shade(job, ids, result.mask, result.reflection, result.color);
   return result;
-}
-
-template <class T>
-bool same_bits(const Image<T>& a, const Image<T>& b) {
-  return std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
 }
 
 TEST(RoughMaps, ThePictureIsTheSameAsIfAllWereAsked) {

@@ -5,12 +5,13 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 
 #include "core/scene/gltf/material_from_surface.h"
 #include "pinocchio/view.h"
 #include "tests/core/trace/lane_probe.h"
+#include "tests/support/drawn_tiles.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/scenes.h"
 #include "tests/support/shade.h"
 
@@ -20,19 +21,7 @@ namespace {
 constexpr glm::ivec2 kSize{150, 90};  // tiles that are cut off on both sides
 constexpr int kDepth = 6;
 
-struct Drawn {
-  Image<std::uint32_t> ids{kSize};
-  MaskImage mask;
-  Image<glm::vec3> reflection{kSize};
-  Image<glm::vec4> color{kSize};
-  RayCounts rays;
-};
-
-template <class T>
-bool same_bits(const Image<T>& a, const Image<T>& b) {
-  return a.size() == b.size() &&
-         std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
-}
+using Drawn = DrawnTiles;
 
 bool same_rays(const RayCounts& a, const RayCounts& b) {
   return a.primary == b.primary && a.shadow == b.shadow && a.reflection == b.reflection &&
@@ -46,12 +35,17 @@ float half_steps(float a, float b) {
   return std::abs(a - b) / std::ldexp(1.0f, exponent - 10);
 }
 
-int mask_bits_of(const Scene& scene) {
-  return MaskImage::bits_for(static_cast<int>(casting_lights(scene).size()));
+// For passes that do not resize them.
+Drawn sized() {
+  Drawn drawn;
+  drawn.ids = Image<std::uint32_t>(kSize);
+  drawn.reflection = Image<glm::vec3>(kSize);
+  drawn.color = Image<glm::vec4>(kSize);
+  return drawn;
 }
 
 Drawn one_by_one(const TraceJob& job) {
-  Drawn drawn;
+  Drawn drawn = sized();
   drawn.rays += trace_visibility(job, drawn.ids);
   const RayCounts of_mask = trace_shadow_mask(job, drawn.ids, mask_bits_of(job.scene), drawn.mask);
   drawn.rays += trace_reflection(job, drawn.ids, kDepth, drawn.reflection);
@@ -61,19 +55,7 @@ Drawn one_by_one(const TraceJob& job) {
 }
 
 Drawn by_tiles(const TraceJob& job, const Image<std::uint32_t>* seen = nullptr) {
-  Drawn drawn;
-  TileOutputs out;
-  out.size = kSize;
-  out.seen = seen;
-  if (seen) drawn.ids = *seen;
-  if (!seen) out.ids = &drawn.ids;
-  out.mask_bits = mask_bits_of(job.scene);
-  out.mask = &drawn.mask;
-  out.depth = kDepth;
-  out.reflection = &drawn.reflection;
-  out.color = &drawn.color;
-  drawn.rays = trace_tiles(job, out).rays;
-  return drawn;
+  return draw_tiles(job, kSize, kDepth, seen);
 }
 
 Camera camera_of(const Scene& scene) {
@@ -272,7 +254,7 @@ TEST(TraceTiles, LightThroughGlassIsTheSameWhenColorsAreAskedForLater) {
           TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
           job.options.light_cutoff = cutoff;
           job.options.terminator = terminator;
-          Drawn at_once, later;
+          Drawn at_once = sized(), later = sized();
           trace_visibility(job, later.ids);
           Image<glm::vec3> added(kSize, glm::vec3(0.0f));
           TileOutputs out = outputs_of(job, later.ids, depth);

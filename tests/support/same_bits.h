@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstring>
+
+#include "pinocchio/image.h"
+
+namespace pinocchio {
+
+// True for images of one size whose pixels are the same to the bit: NaNs too, and 0 is not -0.
+template <class T>
+bool same_bits(const Image<T>& a, const Image<T>& b) {
+  return a.size() == b.size() &&
+         std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+}
+
+}  // namespace pinocchio
