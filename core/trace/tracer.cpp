@@ -24,14 +24,16 @@ struct IsaEntry {
   Isa isa;
   bool (*is_supported)();
   const Kernels& kernels;
+  const MovingKernel& moving;
   const LaneSteps& steps;
   const WideKernel& wide;
 };
 
 // The instruction sets of this architecture, narrowest first.
-#define PINOCCHIO_ENTRY(name, lanes, feature)                                                \
-  {Isa::name, [] { return PINOCCHIO_PROCESSOR_HAS(feature); }, name::kKernels, name::kSteps, \
-   name::kWideKernel},
+#define PINOCCHIO_ENTRY(name, lanes, feature) \
+  {Isa::name,      [] { return PINOCCHIO_PROCESSOR_HAS(feature); },                    \
+   name::kKernels, name::kMovingKernel,       \
+   name::kSteps,   name::kWideKernel},
 const IsaEntry kIsas[]{PINOCCHIO_ISAS(PINOCCHIO_ENTRY)};
 #undef PINOCCHIO_ENTRY
 
@@ -94,6 +96,10 @@ const LaneSteps& lane_steps(Isa isa) {
   return entry_of(isa).steps;
 }
 
+const MovingKernel& moving_kernel(Isa isa) {
+  return entry_of(isa).moving;
+}
+
 const WideKernel& wide_kernel(Isa isa) {
   const IsaEntry* entry = &entry_of(isa);
   while (!entry->wide.closest_hits && entry != kIsas) --entry;
@@ -138,8 +144,11 @@ Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Is
   trees_ = std::move(posed.trees);
   motion_ = std::move(posed.motion);
   offset_ = RayOffset::of(offset, trees_->bounds);
-  if (WideOnDemand::serves(*trees_, isa_))
-    wide_ = std::make_shared<WideOnDemand>(trees_, isa_, options.threads);
+  if (WideOnDemand::serves(*trees_, isa_)) {
+    const bool kept =
+        before && before->wide_ && before->trees_->still == trees_->still && before->isa_ == isa_;
+    wide_ = kept ? before->wide_ : std::make_shared<WideOnDemand>(trees_->still, isa_, options.threads);
+  }
   if (isa_ != Isa::scalar && offset == OffsetMethod::error_bound && ClearWaysToLights::serves(*trees_))
     clear_ways_ = std::make_shared<ClearWaysToLights>(trees_);
   build_end_s_ = now_s();
@@ -180,20 +189,38 @@ RaySorter* sorter_for(Isa isa, const RayColumns& rays, std::size_t n) {
   return &sorter;
 }
 
+// Through the wide tree, then through the trees that move.
+void closest_through(const WideTree& wide, const SceneTrees& trees, Isa isa, const RayColumns& rays,
+                     std::size_t n, std::uint32_t* triangle, float* t, const MaterialMarks* backs) {
+  const bool moving = !trees.top.empty();
+  if (moving && !t) {
+    static thread_local AlignedVector<float> distances;
+    if (distances.size() < n + kQueuePad) distances.resize(n + kQueuePad);
+    t = distances.data();
+  }
+  const WideKernel& still = wide_kernel(isa);
+  if (backs)
+    still.closest_fronts(trees, wide, rays, n, *backs, triangle, t);
+  else
+    still.closest_hits(trees, wide, rays, n, triangle, t);
+  if (!moving) return;
+  if (backs)
+    moving_kernel(isa).add_closest_fronts(trees, rays, n, *backs, triangle, t);
+  else
+    moving_kernel(isa).add_closest_hits(trees, rays, n, triangle, t);
+}
+
 }  // namespace
 
 const WideTree* Tracer::wide_tree_for(const RayColumns& rays, std::size_t n) const {
   if (!wide_ || !are_incoherent(rays, n, wide_->center(), wide_->apart())) return nullptr;
-  return wide_->tree_after(n);
+  return wide_->tree_after(n, *trees_);
 }
 
 void Tracer::closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t,
                           const MaterialMarks* backs) const {
-  if (const WideTree* const wide = wide_tree_for(rays, n)) {
-    const WideKernel& kernel = wide_kernel(isa_);
-    if (backs) return kernel.closest_fronts(*trees_, *wide, rays, n, *backs, triangle, t);
-    return kernel.closest_hits(*trees_, *wide, rays, n, triangle, t);
-  }
+  if (const WideTree* const wide = wide_tree_for(rays, n))
+    return closest_through(*wide, *trees_, isa_, rays, n, triangle, t, backs);
   const Kernel& kernel = kernel_of(isa_, trees_->still->test);
   const auto trace = [&](const RayColumns& from, std::uint32_t* ids, float* distances) {
     if (backs) return kernel.closest_fronts(*trees_, from, n, *backs, ids, distances);
@@ -210,8 +237,11 @@ void Tracer::occluded(const RayColumns& rays, std::size_t n, std::uint8_t* block
                       const PassedSurfaces* passed) const {
   const Kernel& kernel = kernel_of(isa_, trees_->still->test);
   if (passed) return kernel.occluded_unless_passed(*trees_, rays, n, *passed, blocked);
-  if (const WideTree* const wide = wide_tree_for(rays, n))
-    return wide_kernel(isa_).occluded(*trees_, *wide, rays, n, blocked);
+  if (const WideTree* const wide = wide_tree_for(rays, n)) {
+    wide_kernel(isa_).occluded(*trees_, *wide, rays, n, blocked);
+    if (!trees_->top.empty()) moving_kernel(isa_).add_occluded(*trees_, rays, n, blocked);
+    return;
+  }
   RaySorter* const sorter = sorter_for(isa_, rays, n);
   if (!sorter) return kernel.occluded(*trees_, rays, n, blocked);
   const RayColumns sorted = sorter->sort(rays, n);

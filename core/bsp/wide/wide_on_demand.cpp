@@ -34,27 +34,26 @@ float distance_apart(const BspTree& tree, Isa isa) {
 }  // namespace
 
 bool WideOnDemand::serves(const SceneTrees& trees, Isa isa) {
-  return isa != Isa::scalar && trees.top.empty() && trees.still->test == TriangleTest::filtered &&
-         !trees.still->triangles.empty();
+  return isa != Isa::scalar && trees.still->test == TriangleTest::filtered &&
+         2 * trees.still->triangles.size() > trees.corners.size();
 }
 
-WideOnDemand::WideOnDemand(std::shared_ptr<const SceneTrees> trees, Isa isa, int threads)
-    : trees_(std::move(trees)),
-      threads_(threads),
-      center_(trees_->still->exact_bounds.center()),
-      apart_(distance_apart(*trees_->still, isa)),
-      enough_(enough_rays(*trees_->still)) {}
+WideOnDemand::WideOnDemand(std::shared_ptr<const BspTree> still, Isa isa, int threads)
+    : threads_(threads),
+      center_(still->exact_bounds.center()),
+      apart_(distance_apart(*still, isa)),
+      enough_(enough_rays(*still)) {}
 
-const WideTree* WideOnDemand::tree_after(std::size_t rays) {
+const WideTree* WideOnDemand::tree_after(std::size_t rays, const SceneTrees& scene) {
   if (const WideTree* const tree = built_.load(std::memory_order_acquire)) return tree;
   if (rays_.fetch_add(rays, std::memory_order_relaxed) + rays < enough_) return nullptr;
-  if (!begun_.exchange(true)) build();
+  if (!begun_.exchange(true)) build(scene);
   return built_.load(std::memory_order_acquire);
 }
 
-void WideOnDemand::build() noexcept {
+void WideOnDemand::build(const SceneTrees& scene) noexcept {
   try {
-    tree_ = std::make_unique<const WideTree>(build_wide_tree(*trees_, threads_));
+    tree_ = std::make_unique<const WideTree>(build_wide_tree(scene, threads_));
     built_.store(tree_.get(), std::memory_order_release);
   } catch (const std::bad_alloc&) {  // packets need no more memory
   }

@@ -10,20 +10,21 @@
 
 namespace pinocchio {
 
-// The wide tree of one pose's trees, which is built when incoherent rays have been so many that it pays.
-// Until then it takes neither time nor memory. May be called from many threads.
+// The wide tree over what stands still, which is built when incoherent rays have been so many that it pays.
+// Until then it takes neither time nor memory. It serves all poses that share the still tree. May be called
+// from many threads.
 class WideOnDemand {
  public:
-  // True if `trees` is a single tree, without copies and moving parts, and stores its triangles for the
-  // filtered test. Isa::scalar is never served: tests compare all other ways with it.
+  // True if most of the scene's triangles are in the still tree, stored for the filtered test. Isa::scalar is
+  // never served: tests compare all other ways with it.
   [[nodiscard]] static bool serves(const SceneTrees& trees, Isa isa);
 
   // isa: of the packets. threads: for the build; 0: one for each core.
-  WideOnDemand(std::shared_ptr<const SceneTrees> trees, Isa isa, int threads);
+  WideOnDemand(std::shared_ptr<const BspTree> still, Isa isa, int threads);
 
   // Counts that many incoherent rays. Null: trace them in packets. The call that reaches the limit builds the
-  // tree; other threads use packets meanwhile.
-  [[nodiscard]] const WideTree* tree_after(std::size_t rays);
+  // tree; other threads use packets meanwhile. `scene`: in any pose that has the still tree.
+  [[nodiscard]] const WideTree* tree_after(std::size_t rays, const SceneTrees& scene);
 
   // The distance between neighbouring rays at the scene's centre from which on they are incoherent, scene
   // units.
@@ -31,9 +32,8 @@ class WideOnDemand {
   [[nodiscard]] const glm::vec3& center() const { return center_; }
 
  private:
-  void build() noexcept;
+  void build(const SceneTrees& scene) noexcept;
 
-  std::shared_ptr<const SceneTrees> trees_;
   int threads_;
   glm::vec3 center_;
   float apart_;

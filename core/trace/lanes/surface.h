@@ -1,6 +1,7 @@
 // Part of walk/kernel.h's files: core/shade/surface.cpp in lanes.
 #pragma once
 
+#include "core/trace/lanes/lane_steps.h"
 #include "core/trace/lanes/shared.h"
 
 namespace pinocchio::PINOCCHIO_LANES {

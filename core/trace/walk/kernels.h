@@ -32,6 +32,16 @@ struct Kernel {
                                  const PassedSurfaces& passed, std::uint8_t* blocked);
 };
 
+// Kernels that add what rays hit in the scene's moving trees to what others have found in scene.still.
+// Results are as theirs, `t` never null. For TriangleTest::filtered.
+struct MovingKernel {
+  void (*add_closest_hits)(const SceneTrees& scene, const RayColumns& rays, std::size_t n,
+                           std::uint32_t* triangle, float* t);
+  void (*add_closest_fronts)(const SceneTrees& scene, const RayColumns& rays, std::size_t n,
+                             const MaterialMarks& backs, std::uint32_t* triangle, float* t);
+  void (*add_occluded)(const SceneTrees& scene, const RayColumns& rays, std::size_t n, std::uint8_t* blocked);
+};
+
 using Kernels = std::array<Kernel, kTriangleTests.size()>;  // by TriangleTest
 
 struct LaneSteps;  // trace/lanes/lane_steps.h
@@ -49,12 +59,14 @@ struct WideKernel {
                    std::uint8_t* blocked) = nullptr;
 };
 
+[[nodiscard]] const MovingKernel& moving_kernel(Isa isa);
 // The kernel of the widest instruction set that has one, at most `isa`.
 [[nodiscard]] const WideKernel& wide_kernel(Isa isa);
 
 #define PINOCCHIO_DECLARE(name, lanes, feature) \
   namespace name {                              \
   extern const Kernels kKernels;                \
+  extern const MovingKernel kMovingKernel;      \
   extern const WideKernel kWideKernel;          \
   extern const LaneSteps kSteps;                \
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/trace/walk/top_level.h"
+#include "core/trace/walk/traverse.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {

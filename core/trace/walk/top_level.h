@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/bsp/scene_trees.h"
-#include "core/trace/walk/packet.h"
+#include "core/trace/walk/traverse.h"
 #include "pinocchio/conversion.h"
 #include "pinocchio/ray.h"
 

@@ -13,7 +13,7 @@
 #include "core/shade/surface.h"
 #include "core/trace/tiles/trace_tiles.h"
 #include "core/trace/view/view_params.h"
-#include "scenes/generator/mesh_builder.h"
+#include "tests/support/balls.h"
 #include "tests/support/drawn_tiles.h"
 #include "tests/support/same_bits.h"
 #include "tests/support/scenes.h"
@@ -31,20 +31,9 @@ Scene built(const std::function<void(MeshBuilder&)>& build) {
   return Scene(std::move(data));
 }
 
-Scene ball() {
-  return built([](MeshBuilder& builder) { builder.sphere(glm::vec3(0.0f), 1.0f, 24); });
-}
-
 void move(Scene& scene, const std::function<void(glm::vec3&)>& by) {
   MeshEdit mesh(scene);
   std::ranges::for_each(mesh->positions, by);
-}
-
-Scene jagged_ball() {
-  Scene scene = ball();
-  Random random(41);
-  move(scene, [&](glm::vec3& p) { p *= random.between(0.9f, 1.1f); });
-  return scene;
 }
 
 Scene placed(Scene scene, float scale, const glm::vec3& at) {
@@ -75,17 +64,17 @@ Scene folds() {
 std::vector<Scene> meshes() {
   std::vector<Scene> all{random_soup(300, 0.5f, 7),
                          random_soup(800, 0.1f, 3),
-                         ball(),
-                         jagged_ball(),
+                         ball(24),
+                         jagged_ball(24),
                          plate_over_floor(),
                          plate_at(1e-2f),
                          plate_at(1e-6f),
                          plate_at(1e-8f),
-                         placed(ball(), 1e4f, {}),
+                         placed(ball(24), 1e4f, {}),
                          folds()};
-  all.push_back(placed(jagged_ball(), 1e-3f, {}));
+  all.push_back(placed(jagged_ball(24), 1e-3f, {}));
   all.push_back(placed(random_soup(300, 0.5f, 5), 1.0f, {1000.0f, 2.0f, -300.0f}));
-  all.push_back(placed(jagged_ball(), 0.01f, {0.0f, 50.0f, 0.0f}));
+  all.push_back(placed(jagged_ball(24), 0.01f, {0.0f, 50.0f, 0.0f}));
   return all;
 }
 
@@ -145,7 +134,7 @@ TEST(ClearWays, NoRayFromTheInsideIsBlocked) {
 }
 
 TEST(ClearWays, AreFoundWhereNothingIsInTheWay) {
-  const Scene round = ball(), plates = plate_over_floor();
+  const Scene round = ball(24), plates = plate_over_floor();
   const Tracer of_ball(round.mesh), of_plates(plates.mesh);
   const LightPlace sun{{0, 1, 0}, true}, lamp{{0, 5, 0}, false}, below{{0, 0.5f, 0}, false};
   std::size_t clear = 0, facing = 0;
@@ -175,7 +164,7 @@ TEST(ClearWays, AreFoundWhereNothingIsInTheWay) {
 TEST(ClearWays, AreNotFoundWhereFloatsEnd) {
   const LightPlace sun{{0, 1, 0}, true};
   const auto any_clear = [&](float scale) {
-    const Scene scene = placed(ball(), scale, {});
+    const Scene scene = placed(ball(24), scale, {});
     const Tracer tracer(scene.mesh);
     for (std::uint32_t id = 0; id < scene.mesh->triangles.size(); ++id)
       if (has_clear_way(tracer.trees(), id, sun)) return true;
@@ -258,7 +247,7 @@ TEST(ClearWays, PicturesKeepTheirBits) {
 }
 
 TEST(ClearWays, LightsThatMoveAreAskedAnew) {
-  Scene scene = jagged_ball();
+  Scene scene = jagged_ball(24);
   add_lights(scene);
   const Tracer tracer(scene.mesh);
   Workers workers(2);
@@ -273,7 +262,7 @@ TEST(ClearWays, LightsThatMoveAreAskedAnew) {
 }
 
 TEST(ClearWays, KeepWhatIsKnownOfTheLightsThatStay) {
-  const Scene scene = ball();
+  const Scene scene = ball(24);
   const auto trees = std::make_shared<const SceneTrees>(Tracer(scene.mesh).trees());
   ClearWaysToLights known(trees);
   const LightPlace first{{0, 1, 0}, true}, second{{0, 5, 0}, false}, third{{0, 5, 0}, true};
@@ -289,7 +278,7 @@ TEST(ClearWays, KeepWhatIsKnownOfTheLightsThatStay) {
 }
 
 TEST(ClearWays, AreSearchedOnceTheRaysPayForIt) {
-  const Scene scene = ball();
+  const Scene scene = ball(24);
   const Tracer tracer(scene.mesh);
   const LightPlace sun{{0, 1, 0}, true};
   ClearWays ways(std::make_shared<const SceneTrees>(tracer.trees()), sun);
@@ -302,7 +291,7 @@ TEST(ClearWays, AreSearchedOnceTheRaysPayForIt) {
 }
 
 TEST(ClearWays, AreNotKnownWhereRaysStartElsewhereOrTestsAreRounded) {
-  const Scene scene = ball();
+  const Scene scene = ball(24);
   EXPECT_TRUE(Tracer(scene.mesh).clear_ways());
   EXPECT_FALSE(Tracer(scene.mesh, {}, {}, OffsetMethod::fixed).clear_ways());
   BuildOptions rounded;
@@ -311,7 +300,7 @@ TEST(ClearWays, AreNotKnownWhereRaysStartElsewhereOrTestsAreRounded) {
 }
 
 TEST(ClearWays, MayBeAskedFromManyThreads) {
-  const Scene scene = jagged_ball();
+  const Scene scene = jagged_ball(24);
   const Tracer tracer(scene.mesh);
   ClearWaysToLights known(std::make_shared<const SceneTrees>(tracer.trees()));
   const std::vector<LightPlace> lights{{{0, 1, 0}, true}, {{1, 0, 0}, true}};

@@ -8,7 +8,7 @@
 #include "pinocchio/animation.h"
 #include "pinocchio/nodes.h"
 #include "pinocchio/tracer.h"
-#include "scenes/generator/mesh_builder.h"
+#include "tests/support/balls.h"
 #include "tests/support/moving_gltf.h"
 #include "tests/support/scenes.h"
 
@@ -126,14 +126,6 @@ class Chains {
   };
   std::vector<Chain> chains_;
 };
-
-Scene ball(int around) {
-  MeshData mesh;
-  MeshBuilder builder(mesh);
-  builder.use(Material{});
-  builder.sphere(glm::vec3(0.0f), 1.0f, around);
-  return Scene(std::move(mesh));
-}
 
 // A chain of parts on a floor: each hangs on the one before. Every third is two equal parts in one place.
 Scene robot(int parts, std::uint64_t seed) {

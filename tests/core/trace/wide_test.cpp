@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <functional>
+#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <memory>
 
@@ -14,23 +16,14 @@
 #include "core/trace/rays/ray_queue.h"
 #include "core/trace/view/view_params.h"
 #include "core/trace/walk/kernels.h"
-#include "scenes/generator/mesh_builder.h"
+#include "pinocchio/nodes.h"
+#include "tests/support/balls.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-std::shared_ptr<const Mesh> jagged_ball(const glm::vec3& center, int rows) {
-  MeshData data;
-  MeshBuilder builder(data);
-  builder.use(Material{});
-  builder.sphere(center, 1.0f, rows);
-  Random random(41);
-  for (glm::vec3& p : data.positions) p = center + (p - center) * random.between(0.9f, 1.1f);
-  return std::make_shared<const Mesh>(std::move(data));
-}
 
 // Rays in columns.
 class Columns {
@@ -110,13 +103,14 @@ std::vector<Ray> odd_rays(const Mesh& mesh, int count, std::uint64_t seed) {
   return rays;
 }
 
-// The wide walk at every width finds, to the last bit, what packets of one ray find in the binary tree.
+// The wide walk at every width, and the kernel that adds what moves, find to the last bit what packets of one
+// ray find in the binary trees.
 void expect_same_bits(const Tracer& scalar, const std::vector<Ray>& rays, const std::string& what) {
   ASSERT_EQ(scalar.isa(), Isa::scalar);  // which never has a wide tree
   const Columns columns(rays);
   const std::size_t n = rays.size(), room = n + kQueuePad;
   AlignedVector<std::uint32_t> triangle(room), found(room);
-  AlignedVector<float> t(room), found_t(room);
+  AlignedVector<float> t(room), found_t(room, kNan), front_t(room, kNan);
   std::vector<std::uint8_t> blocked(room), found_blocked(room);
   scalar.closest_hits(columns.get(), n, triangle.data(), t.data());
   scalar.occluded(columns.get(), n, blocked.data());
@@ -129,7 +123,13 @@ void expect_same_bits(const Tracer& scalar, const std::vector<Ray>& rays, const 
     const WideKernel& kernel = wide_kernel(isa);
     kernel.closest_hits(scalar.trees(), tree, columns.get(), n, found.data(), found_t.data());
     kernel.occluded(scalar.trees(), tree, columns.get(), n, found_blocked.data());
-    kernel.closest_fronts(scalar.trees(), tree, columns.get(), n, backs, found_front.data(), nullptr);
+    kernel.closest_fronts(scalar.trees(), tree, columns.get(), n, backs, found_front.data(), front_t.data());
+    if (!scalar.trees().top.empty()) {
+      const MovingKernel& moving = moving_kernel(isa);
+      moving.add_closest_hits(scalar.trees(), columns.get(), n, found.data(), found_t.data());
+      moving.add_occluded(scalar.trees(), columns.get(), n, found_blocked.data());
+      moving.add_closest_fronts(scalar.trees(), columns.get(), n, backs, found_front.data(), front_t.data());
+    }
     for (std::size_t i = 0; i < n; ++i) {
       ASSERT_EQ(found_front[i], front[i]) << what << ", " << isa_name(isa) << ", ray " << i;
       ASSERT_EQ(found[i], triangle[i]) << what << ", " << isa_name(isa) << ", ray " << i;
@@ -141,13 +141,27 @@ void expect_same_bits(const Tracer& scalar, const std::vector<Ray>& rays, const 
   }
 }
 
+// Asked by any number of rays, the tracer answers as the other does.
+void expect_same_answers(const Tracer& tracer, const Tracer& scalar, const std::vector<Ray>& rays) {
+  std::vector<Hit> expected(rays.size()), found(rays.size());
+  for (const Backfaces backfaces : {Backfaces::draw, Backfaces::cull}) {
+    scalar.closest_hits(rays, expected, backfaces);
+    tracer.closest_hits(rays, found, backfaces);
+    EXPECT_EQ(found, expected) << isa_name(tracer.isa());
+  }
+  std::vector<std::uint8_t> expected_blocked(rays.size()), found_blocked(rays.size());
+  scalar.occluded(rays, expected_blocked);
+  tracer.occluded(rays, found_blocked);
+  EXPECT_EQ(found_blocked, expected_blocked) << isa_name(tracer.isa());
+}
+
 TEST(Wide, HasTheBitsOfPackets) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const Scene soup = random_soup(3000, 0.05f * static_cast<float>(seed), seed);
     expect_same_bits(Tracer(soup.mesh, {}, Isa::scalar), odd_rays(*soup.mesh, 20000, seed + 10), "soup");
   }
   for (const glm::vec3& center : {glm::vec3(0.0f), glm::vec3(1000.0f, -300.0f, 20.0f)}) {
-    const auto ball = jagged_ball(center, 64);
+    const auto ball = jagged_ball(64, center).mesh;
     expect_same_bits(Tracer(ball, {}, Isa::scalar), odd_rays(*ball, 60000, 4), "ball");
   }
   for (const std::string& name : own_scenes()) {
@@ -161,6 +175,63 @@ TEST(Wide, HasTheBitsOfPacketsOnTheBunny) {
   if (!path) GTEST_SKIP() << "PINOCCHIO_EXTRA_SCENES is not set: the bunny is not traced";
   const Scene scene = load_or_die(*path);
   expect_same_bits(Tracer(scene.mesh, {}, Isa::scalar), odd_rays(*scene.mesh, 300000, 6), "bunny");
+}
+
+// Two balls that stand still and three that move, two of them in the place of the first: which is hit there
+// is decided by the triangles' numbers alone.
+class MovingBalls {
+ public:
+  MovingBalls() {
+    const Scene ball = jagged_ball(40), small = jagged_ball(12), other = jagged_ball(80, {3.0f, 0.0f, 0.0f});
+    const std::array parts{Part{"before", ball}, Part{"still", ball}, Part{"after", ball},
+                           Part{"small", small}, Part{"other", other}};
+    scene_ = assembled(parts).value();
+  }
+
+  // Nodes have trees of their own once they have moved twice.
+  [[nodiscard]] Scene pose(int i) const {
+    const auto at = [](float x, float y) { return glm::translate(glm::mat4(1.0f), glm::vec3(x, y, 0.0f)); };
+    const std::array moves{NodeTransform{0, at(0.0f, i % 3 == 0 ? 0.0f : 1.5f)},
+                           NodeTransform{2, at(0.0f, i % 4 == 0 ? 0.0f : -1.5f)},
+                           NodeTransform{3, at(0.3f * static_cast<float>(i), 0.9f)}};
+    return posed(scene_, moves).value();
+  }
+
+ private:
+  Scene scene_;
+};
+
+constexpr int kPoses = 10;
+
+std::shared_ptr<const Tracer> tracer_of(const Scene& scene, Isa isa, const Tracer* before) {
+  const BuildOptions options{.threads = 1};
+  return std::make_shared<const Tracer>(scene, options, isa, OffsetMethod::error_bound, before);
+}
+
+TEST(Wide, WhatMovesIsAdded) {
+  const MovingBalls balls;
+  std::shared_ptr<const Tracer> scalar;
+  for (int i = 0; i < kPoses; ++i) {
+    const Scene now = balls.pose(i);
+    scalar = tracer_of(now, Isa::scalar, scalar.get());
+    expect_same_bits(*scalar, odd_rays(*now.mesh, 20000, 8), "pose " + std::to_string(i));
+  }
+  EXPECT_EQ(scalar->trees().moving.size(), 3u);
+}
+
+// One wide tree serves the poses: each counts on from the one before.
+TEST(Wide, ServesPosesThatShareWhatStandsStill) {
+  const MovingBalls balls;
+  for (const Isa isa : supported_isas()) {
+    std::shared_ptr<const Tracer> tracer, scalar;
+    for (int i = 0; i < kPoses; ++i) {
+      const Scene now = balls.pose(i);
+      tracer = tracer_of(now, isa, tracer.get());
+      scalar = tracer_of(now, Isa::scalar, scalar.get());
+      EXPECT_EQ(WideOnDemand::serves(tracer->trees(), isa), isa != Isa::scalar);
+      expect_same_answers(*tracer, *scalar, odd_rays(*now.mesh, 12000, 9));
+    }
+  }
 }
 
 // Whether the box of a child has the triangle.
@@ -211,7 +282,7 @@ void expect_every_triangle_once(const std::shared_ptr<const Mesh>& mesh) {
 TEST(Wide, BoxesHoldEveryTriangleOnce) {
   expect_every_triangle_once(random_soup(1, 0.5f, 1).mesh);
   expect_every_triangle_once(random_soup(9, 0.5f, 1).mesh);
-  expect_every_triangle_once(jagged_ball(glm::vec3(0.0f), 200));
+  expect_every_triangle_once(jagged_ball(200).mesh);
   // Each is a fraction of the last one and beside it: the heuristic parts one at a time.
   MeshData chain, stack;
   float size = 1e18f;
@@ -223,16 +294,16 @@ TEST(Wide, BoxesHoldEveryTriangleOnce) {
 }
 
 TEST(Wide, IsBuiltAfterEnoughIncoherentRays) {
-  const Tracer tracer(jagged_ball(glm::vec3(0.0f), 32), {}, Isa::scalar);
+  const Tracer tracer(jagged_ball(32).mesh, {}, Isa::scalar);
   const auto trees = std::shared_ptr<const SceneTrees>(&tracer.trees(), [](const SceneTrees*) {});
   ASSERT_TRUE(WideOnDemand::serves(*trees, Isa::sse4));
   EXPECT_FALSE(WideOnDemand::serves(*trees, Isa::scalar));
-  WideOnDemand wide(trees, Isa::sse4, 1);
+  WideOnDemand wide(trees->still, Isa::sse4, 1);
   const std::size_t triangles = trees->still->triangles.size();
-  EXPECT_EQ(wide.tree_after(triangles / 4), nullptr);
-  const WideTree* const tree = wide.tree_after(4 * triangles);
+  EXPECT_EQ(wide.tree_after(triangles / 4, *trees), nullptr);
+  const WideTree* const tree = wide.tree_after(4 * triangles, *trees);
   ASSERT_NE(tree, nullptr);
-  EXPECT_EQ(wide.tree_after(1), tree);
+  EXPECT_EQ(wide.tree_after(1, *trees), tree);
   EXPECT_FALSE(WideOnDemand::serves(
       Tracer(random_soup(60, 0.5f, 1).mesh, {.triangle_test = TriangleTest::watertight}, Isa::scalar).trees(),
       Isa::sse4));
@@ -240,21 +311,12 @@ TEST(Wide, IsBuiltAfterEnoughIncoherentRays) {
 
 // Rays of one array are traced by packets at first and then through the wide tree.
 TEST(Wide, NoHitDependsOnWhenItIsBuilt) {
-  const auto ball = jagged_ball(glm::vec3(0.0f), 48);
+  const auto ball = jagged_ball(48).mesh;
   const std::vector<Ray> rays = odd_rays(*ball, 30000, 7);
-  std::vector<Hit> expected(rays.size()), found(rays.size());
-  std::vector<std::uint8_t> expected_blocked(rays.size()), found_blocked(rays.size());
   const Tracer scalar(ball, {}, Isa::scalar);
-  scalar.closest_hits(rays, expected);
-  scalar.occluded(rays, expected_blocked);
   for (const Isa isa : supported_isas()) {
     const Tracer tracer(ball, {}, isa);
-    for (int time = 0; time < 2; ++time) {
-      tracer.closest_hits(rays, found);
-      tracer.occluded(rays, found_blocked);
-      EXPECT_EQ(found, expected) << isa_name(isa);
-      EXPECT_EQ(found_blocked, expected_blocked) << isa_name(isa);
-    }
+    for (int time = 0; time < 2; ++time) expect_same_answers(tracer, scalar, rays);
   }
 }
 
