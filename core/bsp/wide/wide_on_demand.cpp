@@ -34,8 +34,9 @@ float distance_apart(const BspTree& tree, Isa isa) {
 }  // namespace
 
 bool WideOnDemand::serves(const SceneTrees& trees, Isa isa) {
-  return isa != Isa::scalar && trees.still->test == TriangleTest::filtered &&
-         2 * trees.still->triangles.size() > trees.corners.size();
+  const std::size_t still = trees.still->triangles.size();
+  return isa != Isa::scalar && trees.still->test == TriangleTest::filtered && still > 0 &&
+         (trees.top.empty() || 2 * still > trees.corners.size());
 }
 
 WideOnDemand::WideOnDemand(std::shared_ptr<const BspTree> still, Isa isa, int threads)

@@ -15,8 +15,8 @@ namespace pinocchio {
 // from many threads.
 class WideOnDemand {
  public:
-  // True if most of the scene's triangles are in the still tree, stored for the filtered test. Isa::scalar is
-  // never served: tests compare all other ways with it.
+  // True if all or more than half of the scene's triangles are in the still tree, stored for the filtered
+  // test. Isa::scalar is never served: tests compare all other ways with it.
   [[nodiscard]] static bool serves(const SceneTrees& trees, Isa isa);
 
   // isa: of the packets. threads: for the build; 0: one for each core.

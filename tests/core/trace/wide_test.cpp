@@ -18,6 +18,7 @@
 #include "core/trace/walk/kernels.h"
 #include "pinocchio/nodes.h"
 #include "tests/support/balls.h"
+#include "tests/support/copies.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
@@ -217,6 +218,16 @@ TEST(Wide, WhatMovesIsAdded) {
     expect_same_bits(*scalar, odd_rays(*now.mesh, 20000, 8), "pose " + std::to_string(i));
   }
   EXPECT_EQ(scalar->trees().moving.size(), 3u);
+}
+
+TEST(Wide, CopiesThatShareATreeAreAdded) {
+  const Scene ball = jagged_ball(60), copies = load_copies();
+  const std::array parts{Part{"ball", ball}, Part{"copies", copies}};
+  const Scene scene = assembled(parts).value();
+  const auto scalar = tracer_of(scene, Isa::scalar, nullptr);
+  EXPECT_FALSE(scalar->trees().still->triangles.empty());
+  EXPECT_GT(scalar->trees().moving.size(), 1u);
+  expect_same_bits(*scalar, odd_rays(*scene.mesh, 30000, 10), "copies");
 }
 
 // One wide tree serves the poses: each counts on from the one before.
