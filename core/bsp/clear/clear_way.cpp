@@ -51,13 +51,13 @@ struct FourPlanes {
   }
 };
 
-// The space between the inside of a triangle and a light: a pyramid with the light at its tip, or, where the
+// The space between a part of a triangle and a light: a pyramid with the light at its tip, or, where the
 // light is far away, a prism without an end.
 class Shaft {
  public:
   // None: the triangle is too thin, or the light too near its plane. reach: the greatest coordinate.
-  static std::optional<Shaft> of(const std::array<glm::vec3, 3>& corners, const LightPlace& light,
-                                 double reach) {
+  static std::optional<Shaft> of(const std::array<glm::vec3, 3>& corners, const TrianglePart& part,
+                                 const LightPlace& light, double reach) {
     const Corners triangle{glm::dvec3(corners[0]), glm::dvec3(corners[1]), glm::dvec3(corners[2])};
     Shaft shaft;
     shaft.far_ = light.far;
@@ -67,22 +67,23 @@ class Shaft {
     const double length = glm::length(normal);
     if (!(kLeastSine * glm::length(ab) * glm::length(ac) < length)) return {};
     normal /= length;
-    if (glm::dot(normal, shaft.way_from(triangle[0])) < 0.0) normal = -normal;
+    for (std::size_t i = 0; i < 3; ++i)
+      shaft.part_[i] = part[i].x * triangle[0] + part[i].y * triangle[1] + part[i].z * triangle[2];
+    if (glm::dot(normal, shaft.way_from(shaft.part_[0])) < 0.0) normal = -normal;
     double distance = 0.0, near = 0.0;
-    for (const glm::dvec3& corner : triangle) {
-      const glm::dvec3 way = shaft.way_from(corner);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::dvec3 way = shaft.way_from(shaft.part_[i]);
       if (!(kLeastCosine * glm::length(way) < glm::dot(normal, way))) return {};
       distance = std::max(distance, light.far ? 0.0 : glm::length(way));
-      near = std::max(near, largest_component(corner));
+      near = std::max(near, largest_component(triangle[i]));
     }
     // Twice as far as a ray can be off: by its offset, and by the rounding of its origin and direction.
     const double size = std::max({glm::length(ab), glm::length(ac), glm::length(ac - ab)});
     shaft.margin_ = 0x1p-24 * (64.0 * size + 11.0 * near + 2.0 * distance);
     shaft.quick_margin_ = static_cast<float>(shaft.margin_ + 0x1p-24 * 32.0 * reach);
     shaft.box_margin_ = static_cast<float>(shaft.margin_ + 0x1p-14 * reach);
-    shaft.set_inside(triangle);
     shaft.base_ = {normal, glm::dot(normal, triangle[0])};
-    for (std::size_t i = 0; i < 3; ++i) shaft.sides_[i] = *shaft.beside_edge(shaft.inside_, i);
+    for (std::size_t i = 0; i < 3; ++i) shaft.sides_[i] = *shaft.beside_edge(shaft.part_, i);
     shaft.sides_[3] = {-normal, -shaft.base_.at};
     for (std::size_t i = 0; i < 4; ++i) shaft.quick_sides_.set(as_int(i), shaft.sides_[i]);
     return shaft;
@@ -92,7 +93,7 @@ class Shaft {
   [[nodiscard]] const FourPlanes& quick_sides() const { return quick_sides_; }
   [[nodiscard]] bool misses(Four lowest) const { return any(lowest > all_of(box_margin_)); }
 
-  // Some plane is between it and the triangle, with the margin.
+  // Some plane is between it and the other triangle, with the margin.
   [[nodiscard]] bool misses(const std::array<glm::vec3, 3>& other) const {
     const FourPlanes& sides = quick_sides_;
     const Four least = min(min(sides.above(other[0]), sides.above(other[1])), sides.above(other[2]));
@@ -103,12 +104,6 @@ class Shaft {
 
  private:
   [[nodiscard]] glm::dvec3 way_from(const glm::dvec3& p) const { return far_ ? light_ : light_ - p; }
-
-  void set_inside(const Corners& triangle) {
-    const glm::dvec3 center = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
-    for (std::size_t i = 0; i < 3; ++i)
-      inside_[i] = center + (1.0 - 3.0 * double{kInnerWeight}) * (triangle[i] - center);
-  }
 
   // Through an edge and along the light's ways, away from the third corner. None: they are parallel.
   [[nodiscard]] std::optional<Plane> beside_edge(const Corners& triangle, std::size_t edge) const {
@@ -134,10 +129,10 @@ class Shaft {
     const double length = glm::length(normal);
     if (!(length > 0.0)) return false;
     normal /= length;
-    if (glm::dot(normal, inside_[0] - other[0]) < 0.0) normal = -normal;
+    if (glm::dot(normal, part_[0] - other[0]) < 0.0) normal = -normal;
     const Plane plane{normal, glm::dot(normal, other[0])};
     const bool leaves = far_ ? 0.0 <= glm::dot(normal, light_) : margin_ < plane.above(light_);
-    return leaves && margin_ < least_above(plane, inside_);
+    return leaves && margin_ < least_above(plane, part_);
   }
 
   // Beyond an edge of the other triangle, as seen from the light. There the pyramid is narrower than at its
@@ -151,12 +146,12 @@ class Shaft {
     }
     for (std::size_t i = 0; i < 3; ++i)
       if (const std::optional<Plane> plane = beside_edge(other, i);
-          plane && margin_ < narrowed * least_above(*plane, inside_))
+          plane && margin_ < narrowed * least_above(*plane, part_))
         return true;
     return false;
   }
 
-  Corners inside_;
+  Corners part_;
   Plane base_;                  // the triangle's, towards the light
   std::array<Plane, 4> sides_;  // away from the shaft; the last one's base
   FourPlanes quick_sides_;
@@ -234,11 +229,36 @@ class Walk {
 
 }  // namespace
 
-bool has_clear_way(const SceneTrees& trees, std::uint32_t triangle, const LightPlace& light) {
+TrianglePart whole_inside() {
+  constexpr double kLeast{kInnerWeight}, kMost = 1.0 - 2.0 * kLeast;
+  return {glm::dvec3(kMost, kLeast, kLeast), glm::dvec3(kLeast, kMost, kLeast),
+          glm::dvec3(kLeast, kLeast, kMost)};
+}
+
+TrianglePart part_of_inside(std::uint32_t number) {
+  // A side moves outwards by a third of it, times the length of a part: by five times the error of the sum of
+  // two weights.
+  constexpr double kWider = 1.0 + 1.0 / 64.0;
+  const std::uint32_t rhombus = number / 2;
+  const double y = rhombus % kPartsAlong, z = rhombus / kPartsAlong;
+  const glm::dvec2 corners[3]{
+      number % 2 == 0 ? glm::dvec2(y, z) : glm::dvec2(y + 1.0, z + 1.0), {y + 1.0, z}, {y, z + 1.0}};
+  const glm::dvec2 center = (corners[0] + corners[1] + corners[2]) / 3.0;
+  const TrianglePart whole = whole_inside();
+  TrianglePart part;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec2 at = (center + kWider * (corners[i] - center)) / double{kPartsAlong};
+    part[i] = (1.0 - at.x - at.y) * whole[0] + at.x * whole[1] + at.y * whole[2];
+  }
+  return part;
+}
+
+bool has_clear_way(const SceneTrees& trees, std::uint32_t triangle, const LightPlace& light,
+                   const TrianglePart& part) {
   const Bounds& box = trees.still->bounds;
   const double reach = std::max(largest_component(glm::dvec3(box.lo)), largest_component(glm::dvec3(box.hi)));
   if (!(kLeastReach < reach && reach < kMostReach)) return false;
-  const std::optional<Shaft> shaft = Shaft::of(corners_of(trees, triangle), light, reach);
+  const std::optional<Shaft> shaft = Shaft::of(corners_of(trees, triangle), part, light, reach);
   return shaft && Walk(trees, triangle, *shaft).meets_nothing();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -19,9 +20,23 @@ struct LightPlace {
 // and cannot be told from what hides the light there.
 inline constexpr float kInnerWeight = 1.0f / 256.0f;
 
-// True if no other triangle is between the inside of this one and the light: no shadow ray from there to the
+// The barycentric weights of points inside a triangle are off by less than this.
+inline constexpr float kWeightError = 0x1p-16f;
+
+// Three points inside a triangle, by their weights, and what is between them.
+using TrianglePart = std::array<glm::dvec3, 3>;
+[[nodiscard]] TrianglePart whole_inside();
+
+// The inside is divided along lines on which a weight is the same, kPartsAlong to an edge: each rhombus of
+// that grid holds two parts.
+inline constexpr std::uint32_t kPartsAlong = 16, kParts = 2 * kPartsAlong * kPartsAlong;
+// Part `number` as steps.h counts them, and so much around it that rounded weights do not lead out of it.
+[[nodiscard]] TrianglePart part_of_inside(std::uint32_t number);
+
+// True if no other triangle is between that part of this one and the light: no shadow ray from there to the
 // light is blocked, whatever its roundings, if it starts OffsetMethod::error_bound off the triangle. False
 // where that is not certain. `trees` are as ClearWays serves them.
-[[nodiscard]] bool has_clear_way(const SceneTrees& trees, std::uint32_t triangle, const LightPlace& light);
+[[nodiscard]] bool has_clear_way(const SceneTrees& trees, std::uint32_t triangle, const LightPlace& light,
+                                 const TrianglePart& part = whole_inside());
 
 }  // namespace pinocchio

@@ -9,16 +9,53 @@
 namespace pinocchio {
 
 ClearWays::ClearWays(std::shared_ptr<const SceneTrees> trees, const LightPlace& light)
-    : trees_(std::move(trees)), light_(light), known_(trees_->corners.size()) {}
+    : trees_(std::move(trees)),
+      light_(light),
+      known_(trees_->corners.size()),
+      more_(trees_->corners.size()) {}
 
-bool ClearWays::count(std::uint32_t triangle, unsigned rays) {
-  std::atomic<std::uint8_t>& known = known_[triangle];
-  if (rays < kEnough) {
-    known.store(static_cast<std::uint8_t>(rays), std::memory_order_relaxed);
+ClearWays::Way ClearWays::count(std::uint32_t triangle, std::uint8_t known, unsigned rays) {
+  if (known == kSearched) return count_for_parts(triangle, rays);
+  const bool enough = known + rays >= kEnough, clear = enough && has_clear_way(*trees_, triangle, light_);
+  // Nothing is stored where another thread has counted or searched meanwhile.
+  known_[triangle].compare_exchange_strong(known, clear    ? kClear
+                                                  : enough ? kSearched
+                                                           : static_cast<std::uint8_t>(known + rays));
+  return clear ? Way::clear : Way::unknown;
+}
+
+ClearWays::Way ClearWays::count_for_parts(std::uint32_t triangle, unsigned rays) {
+  std::uint16_t asked = more_[triangle].load();
+  if (asked + rays < kEnoughForParts) {
+    more_[triangle].compare_exchange_strong(asked, static_cast<std::uint16_t>(asked + rays));
+    return Way::unknown;
+  }
+  const std::scoped_lock lock(mutex_);
+  std::atomic<std::uint8_t>& state = known_[triangle];
+  if (state.load() != kSearched) return Way::unknown;
+  try {
+    if (by_part_ < kMostByPart) {
+      parts_[by_part_] = States(kParts);
+      more_[triangle].store(static_cast<std::uint16_t>(kIndex + by_part_++));
+      state.store(kByPart);
+      return Way::by_part;
+    }
+  } catch (const std::bad_alloc&) {  // tracing needs no more memory
+  }
+  state.store(kHidden);
+  return Way::unknown;
+}
+
+bool ClearWays::is_part_clear(std::uint32_t triangle, std::uint32_t part, unsigned rays) {
+  std::atomic<std::uint8_t>& state = parts_[more_[triangle].load(std::memory_order_relaxed) - kIndex][part];
+  const std::uint8_t known = state.load(std::memory_order_relaxed);
+  if (known >= kEnough) return known == kClear;
+  if (known + rays < kEnough) {
+    state.store(static_cast<std::uint8_t>(known + rays), std::memory_order_relaxed);
     return false;
   }
-  const bool clear = has_clear_way(*trees_, triangle, light_);
-  known.store(clear ? kClear : kHidden, std::memory_order_relaxed);
+  const bool clear = has_clear_way(*trees_, triangle, light_, part_of_inside(part));
+  state.store(clear ? kClear : kHidden, std::memory_order_relaxed);
   return clear;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -13,33 +14,51 @@
 
 namespace pinocchio {
 
-// Which triangles have a clear way to one light (clear_way.h), found as rays ask for it. Shadow rays from
-// these need not be traced. May be called from many threads, in any order: the answer to a call depends on
-// what was asked before, but a shadow ray's result is the same either way.
+// Which triangles have a clear way to one light (clear_way.h), found as rays ask for it, and which parts of
+// large triangles that have none as a whole. Shadow rays from these need not be traced. May be called from
+// many threads, in any order: the answer to a call depends on what was asked before, but a shadow ray's
+// result is the same either way.
 class ClearWays {
  public:
   ClearWays(std::shared_ptr<const SceneTrees> trees, const LightPlace& light);
 
-  // True if the way is known to be clear. rays: how many rays ask now. The call with which a triangle's rays
-  // reach kEnough searches: by then, tracing them has taken about as long as a search takes.
-  [[nodiscard, gnu::always_inline]] bool is_clear(std::uint32_t triangle, unsigned rays) {
-    const std::uint8_t known = known_[triangle].load(std::memory_order_relaxed);
-    if (known < kEnough) [[unlikely]]
-      return count(triangle, known + rays);
-    return known == kClear;
+  enum class Way { unknown, clear, by_part };
+  // Of a whole triangle. rays: how many rays ask now. The call with which a triangle's rays reach kEnough
+  // searches: by then, tracing them has taken about as long as a search takes.
+  [[nodiscard, gnu::always_inline]] Way way_of(std::uint32_t triangle, unsigned rays) {
+    const std::uint8_t known = known_[triangle].load(std::memory_order_acquire);
+    if (known == kClear) return Way::clear;
+    if (known == kByPart) return Way::by_part;
+    return known == kHidden ? Way::unknown : count(triangle, known, rays);
   }
+  // Of a part of a triangle whose way is known by_part; likewise.
+  [[nodiscard]] bool is_part_clear(std::uint32_t triangle, std::uint32_t part, unsigned rays);
 
   [[nodiscard]] const LightPlace& light() const { return light_; }
 
  private:
-  // A triangle's state: the number of rays that have asked, while that is below kEnough; then the answer.
-  static constexpr std::uint8_t kEnough = 64, kHidden = 254, kClear = 255;
+  // The state of a triangle or part: the number of rays that have asked, while that is below kEnough; then
+  // the answer. kSearched: of a triangle that is not clear as a whole, until its rays are many.
+  static constexpr std::uint8_t kEnough = 64, kSearched = 252, kByPart = 253, kHidden = 254, kClear = 255;
+  using States = std::vector<std::atomic<std::uint8_t>>;
+  // A triangle has parts once so many more rays have asked.
+  static constexpr std::uint32_t kEnoughForParts = 1024;
+  // Triangles that have parts.
+  static constexpr std::size_t kMostByPart = 256;
 
-  bool count(std::uint32_t triangle, unsigned rays);
+  Way count(std::uint32_t triangle, std::uint8_t known, unsigned rays);
+  Way count_for_parts(std::uint32_t triangle, unsigned rays);
 
   std::shared_ptr<const SceneTrees> trees_;
   LightPlace light_;
-  std::vector<std::atomic<std::uint8_t>> known_;  // by triangle
+  States known_;  // by triangle
+  // Of a triangle in state kSearched the rays that have asked since; in state kByPart kIndex + an index of
+  // parts_.
+  static constexpr std::uint16_t kIndex = 0x8000;
+  std::vector<std::atomic<std::uint16_t>> more_;
+  std::mutex mutex_;
+  std::size_t by_part_ = 0;
+  std::array<States, kMostByPart> parts_;
 };
 
 // The clear ways to a scene's lights in one pose. May be called from many threads.

@@ -13,6 +13,7 @@
 #include "core/trace/lanes/sampled.h"
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/terminator.h"
+#include "core/trace/lanes/triangle_part.h"
 #include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -70,13 +71,19 @@ inline void append_shadow_rays(const BounceLight& from, const LaneSurface& s, co
 // The lanes whose shadow rays need not be traced.
 inline Mask with_clear_ways(const BounceLight& light, const LaneSurface& s, const ShadowStarts& starts,
                             Int triangle, Mask lanes) {
-  // Rounded weights are off by less than this.
-  const Float least(kInnerWeight + 0x1p-16f);
+  const Float least(kInnerWeight + kWeightError);
   const Mask inside =
       lanes & ~starts.lifted() & (least < s.weights.x) & (least < s.weights.y) & (least < s.weights.z);
   Mask clear = Mask::from_bits(0);
+  ClearWays& ways = *light.clear_ways;
+  const auto count = [](Mask some) { return as_uint32(__builtin_popcount(some.bits())); };
   for_each_distinct(triangle, inside, [&](std::uint32_t id, Mask same) {
-    if (light.clear_ways->is_clear(id, as_uint32(__builtin_popcount(same.bits())))) clear = clear | same;
+    const ClearWays::Way way = ways.way_of(id, count(same));
+    if (way == ClearWays::Way::clear) clear = clear | same;
+    if (way != ClearWays::Way::by_part) return;
+    for_each_distinct(part_of(s.weights), same, [&](std::uint32_t part, Mask in_part) {
+      if (ways.is_part_clear(id, part, count(in_part))) clear = clear | in_part;
+    });
   });
   return clear;
 }

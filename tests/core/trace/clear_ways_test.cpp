@@ -13,6 +13,7 @@
 #include "core/shade/surface.h"
 #include "core/trace/tiles/trace_tiles.h"
 #include "core/trace/view/view_params.h"
+#include "tests/core/trace/lane_probe.h"
 #include "tests/support/balls.h"
 #include "tests/support/drawn_tiles.h"
 #include "tests/support/same_bits.h"
@@ -95,12 +96,26 @@ std::vector<LightPlace> lights_for(const Mesh& mesh) {
 
 // Weights inside, many of them at its rim.
 glm::vec3 weights_inside(Random& random) {
-  constexpr float kLeast = kInnerWeight + 0x1p-16f;
+  constexpr float kLeast = kInnerWeight + kWeightError;
   glm::vec3 w{random.between(0, 1), random.between(0, 1), random.between(0, 1)};
   if (random.next() % 2 == 0) w[static_cast<int>(random.next() % 3)] = 0.0f;
   if (random.next() % 4 == 0) w[static_cast<int>(random.next() % 3)] = 0.0f;
   const float sum = std::max(w.x + w.y + w.z, 1e-3f);
   return kLeast + w / sum * (1.0f - 3.0f * kLeast);
+}
+
+// A shadow ray from the triangle, as the tile pass starts it.
+Ray shadow_ray(const Mesh& mesh, std::uint32_t id, const glm::vec3& weights, const glm::vec3& viewer,
+               const LightPlace& light, const RayOffset& offset) {
+  const BareSurface s = bare_surface_at(mesh, id, viewer, weights, offset);
+  const glm::vec3 origin = offset_origin(s, light.far ? light.at : light.at - s.p_world);
+  return {origin, light.far ? kInfinity : 1.0f, light.far ? light.at : light.at - origin};
+}
+
+std::ptrdiff_t blocked(const Tracer& tracer, const std::vector<Ray>& rays) {
+  std::vector<std::uint8_t> hidden(rays.size());
+  tracer.occluded(rays, hidden);
+  return std::ranges::count(hidden, 1);
 }
 
 TEST(ClearWays, NoRayFromTheInsideIsBlocked) {
@@ -110,27 +125,98 @@ TEST(ClearWays, NoRayFromTheInsideIsBlocked) {
     const Tracer tracer(scene.mesh, {}, Isa::scalar);
     ASSERT_TRUE(ClearWaysToLights::serves(tracer.trees()));
     Random random(17);
-    std::ptrdiff_t blocked = 0;
     for (const LightPlace& light : lights_for(mesh)) {
       std::vector<Ray> rays;
       for (std::uint32_t id = 0; id < mesh.triangles.size(); ++id) {
         if (!has_clear_way(tracer.trees(), id, light)) continue;
         ++clear;
-        for (int i = 0; i < 20; ++i) {
-          const glm::vec3 weights = weights_inside(random), from = random_point(random, 1.0f);
-          const BareSurface s = bare_surface_at(mesh, id, from, weights, tracer.offset());
-          const glm::vec3 towards = light.far ? light.at : light.at - s.p_world;
-          const glm::vec3 origin = offset_origin(s, towards);
-          rays.push_back({origin, light.far ? kInfinity : 1.0f, light.far ? light.at : light.at - origin});
-        }
+        for (int i = 0; i < 20; ++i)
+          rays.push_back(shadow_ray(mesh, id, weights_inside(random), random_point(random, 1.0f), light,
+                                    tracer.offset()));
       }
-      std::vector<std::uint8_t> hidden(rays.size());
-      tracer.occluded(rays, hidden);
-      blocked += std::ranges::count(hidden, 1);
+      EXPECT_EQ(blocked(tracer, rays), 0) << mesh.triangles.size() << " triangles";
     }
-    EXPECT_EQ(blocked, 0) << mesh.triangles.size() << " triangles";
   }
   EXPECT_GT(clear, 5000u);
+}
+
+// Points of a part, half of them at its rim.
+glm::vec3 weights_in(const TrianglePart& part, Random& random) {
+  glm::dvec3 w{random.between(0, 1), random.between(0, 1), random.between(0.01f, 1)};
+  if (random.next() % 2 == 0) w[static_cast<int>(random.next() % 2)] = 0.0;
+  w /= w.x + w.y + w.z;
+  return glm::vec3(w.x * part[0] + w.y * part[1] + w.z * part[2]);
+}
+
+// Half of the numbers' parts lie beyond the triangle.
+bool is_of_triangle(const TrianglePart& part) {
+  return std::ranges::all_of(part, [](const glm::dvec3& w) { return 0.0 < w.x; });
+}
+
+// Of triangles that have no clear way as a whole.
+TEST(ClearWays, NoRayFromAClearPartIsBlocked) {
+  std::size_t clear = 0, searched = 0;
+  for (const Scene& scene : meshes()) {
+    const Mesh& mesh = *scene.mesh;
+    const Tracer tracer(scene.mesh, {}, Isa::scalar);
+    Random random(29);
+    for (const LightPlace& light : lights_for(mesh)) {
+      std::vector<Ray> rays;
+      for (int i = 0; i < 4000; ++i) {
+        const auto id = static_cast<std::uint32_t>(random.next() % mesh.triangles.size());
+        if (has_clear_way(tracer.trees(), id, light)) continue;
+        ++searched;
+        const TrianglePart part = part_of_inside(static_cast<std::uint32_t>(random.next() % kParts));
+        if (!is_of_triangle(part) || !has_clear_way(tracer.trees(), id, light, part)) continue;
+        ++clear;
+        for (int k = 0; k < 20; ++k)
+          rays.push_back(shadow_ray(mesh, id, weights_in(part, random), random_point(random, 1.0f), light,
+                                    tracer.offset()));
+      }
+      EXPECT_EQ(blocked(tracer, rays), 0) << mesh.triangles.size() << " triangles";
+    }
+  }
+  EXPECT_GT(clear, 5000u);
+  EXPECT_GT(searched, 3 * clear);
+}
+
+// Also with weights that are rounded, and beside the lines between parts.
+TEST(ClearWays, PointsAreInTheirParts) {
+  constexpr std::size_t kCount = 4096;
+  constexpr float kLeast = kInnerWeight + kWeightError;
+  Random random(31);
+  AlignedVector<float> y, z;
+  while (y.size() < kCount) {
+    glm::vec3 w = weights_inside(random);
+    if (random.next() % 2 == 0) {
+      constexpr float kAlong = (1.0f - 3.0f * kInnerWeight) / kPartsAlong;
+      w.y = std::max(kLeast, kInnerWeight + kAlong * std::round((w.y - kInnerWeight) / kAlong));
+    }
+    if (1.0f - w.y - w.z < kLeast) continue;
+    y.push_back(w.y);
+    z.push_back(w.z);
+  }
+  AlignedVector<std::uint32_t> first(kCount), numbers(kCount);
+  for (const Isa isa : supported_isas()) {
+    lane_probe(isa).parts(y.data(), z.data(), numbers.data(), kCount);
+    if (isa == supported_isas().front()) first = numbers;
+    EXPECT_EQ(numbers, first) << isa_name(isa);
+  }
+  for (std::size_t i = 0; i < kCount; ++i) {
+    ASSERT_LT(numbers[i], kParts);
+    const TrianglePart part = part_of_inside(numbers[i]);
+    for (const glm::dvec2 error :
+         {glm::dvec2(1, 1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(-1, -1)}) {
+      const glm::dvec2 at = glm::dvec2(y[i], z[i]) + double{kWeightError} * error;
+      const auto beside = [&](int from, int to) {  // twice the area of the edge and the point
+        const glm::dvec2 a{part[from].y, part[from].z}, b{part[to].y, part[to].z};
+        return (b.x - a.x) * (at.y - a.y) - (b.y - a.y) * (at.x - a.x);
+      };
+      const double sides[3] = {beside(0, 1), beside(1, 2), beside(2, 0)};
+      EXPECT_TRUE((sides[0] > 0) == (sides[1] > 0) && (sides[1] > 0) == (sides[2] > 0))
+          << y[i] << ' ' << z[i];
+    }
+  }
 }
 
 TEST(ClearWays, AreFoundWhereNothingIsInTheWay) {
@@ -154,6 +240,17 @@ TEST(ClearWays, AreFoundWhereNothingIsInTheWay) {
     EXPECT_FALSE(has_clear_way(of_plates.trees(), floor, lamp));
     EXPECT_TRUE(has_clear_way(of_plates.trees(), floor, below));
   }
+  std::uint32_t parts = 0, clear_parts = 0;
+  for (std::uint32_t number = 0; number < kParts; ++number) {
+    const TrianglePart part = part_of_inside(number);
+    if (!is_of_triangle(part)) continue;
+    ++parts;
+    clear_parts += has_clear_way(of_plates.trees(), 0, sun, part) ? 1 : 0;
+  }
+  EXPECT_EQ(parts, kParts / 2);
+  // A sixteenth of the floor is below the plate.
+  EXPECT_GT(clear_parts, parts * 7 / 8);
+  EXPECT_LT(clear_parts, parts * 15 / 16);
   for (const std::uint32_t plate : {2u, 3u}) {
     EXPECT_TRUE(has_clear_way(of_plates.trees(), plate, sun));
     EXPECT_TRUE(has_clear_way(of_plates.trees(), plate, lamp));
@@ -246,6 +343,26 @@ TEST(ClearWays, PicturesKeepTheirBits) {
   }
 }
 
+// Until large triangles have parts, and these have been searched.
+TEST(ClearWays, PicturesKeepTheirBitsPartByPart) {
+  Workers workers(2);
+  Scene scene = plate_over_floor();
+  add_lights(scene);
+  const LightPlace above{{0.5f, 5.0f, 0.5f}, false};
+  scene.lights.push_back(point_light(above.at));
+  const Tracer tracer(scene.mesh);
+  TraceJob job{scene, tracer, workers, view_params(scene.cameras.front(), kSize)};
+  job.options.clear_ways = false;
+  const DrawnTiles expected = draw(job);
+  job.options.clear_ways = true;
+  for (int frame = 0; frame < 40; ++frame) expect_same(draw(job), expected);
+  ClearWays& ways = *tracer.clear_ways()->to(std::vector{above}).front();
+  ASSERT_EQ(ways.way_of(0, 0), ClearWays::Way::by_part);
+  int clear = 0;
+  for (std::uint32_t part = 0; part < kParts; ++part) clear += ways.is_part_clear(0, part, 0) ? 1 : 0;
+  EXPECT_GT(clear, 50);
+}
+
 TEST(ClearWays, LightsThatMoveAreAskedAnew) {
   Scene scene = jagged_ball(24);
   add_lights(scene);
@@ -285,9 +402,27 @@ TEST(ClearWays, AreSearchedOnceTheRaysPayForIt) {
   std::uint32_t top = 0;
   while (!has_clear_way(tracer.trees(), top, sun)) ++top;
   int asked = 1;
-  while (!ways.is_clear(top, 16) && asked < 100) ++asked;
+  while (ways.way_of(top, 16) != ClearWays::Way::clear && asked < 100) ++asked;
   EXPECT_EQ(asked, 4);
-  EXPECT_TRUE(ways.is_clear(top, 1));
+  EXPECT_EQ(ways.way_of(top, 1), ClearWays::Way::clear);
+}
+
+TEST(ClearWays, LargeTrianglesAreSearchedPartByPart) {
+  const Tracer tracer(plate_over_floor().mesh);
+  ClearWays ways(std::make_shared<const SceneTrees>(tracer.trees()), {{0, 1, 0}, true});
+  constexpr std::uint32_t kFloor = 0;
+  int asked = 1;
+  while (ways.way_of(kFloor, 16) != ClearWays::Way::by_part && asked < 1000) ++asked;
+  EXPECT_EQ(asked, (64 + 1024) / 16);
+  std::ptrdiff_t clear = 0;
+  for (std::uint32_t part = 0; part < kParts; ++part) {
+    for (int i = 0; i < 3; ++i) EXPECT_FALSE(ways.is_part_clear(kFloor, part, 16));
+    const bool expected = has_clear_way(tracer.trees(), kFloor, ways.light(), part_of_inside(part));
+    EXPECT_EQ(ways.is_part_clear(kFloor, part, 16), expected);
+    EXPECT_EQ(ways.is_part_clear(kFloor, part, 1), expected);
+    clear += expected ? 1 : 0;
+  }
+  EXPECT_GT(clear, 0);
 }
 
 TEST(ClearWays, AreNotKnownWhereRaysStartElsewhereOrTestsAreRounded) {
@@ -310,8 +445,14 @@ TEST(ClearWays, MayBeAskedFromManyThreads) {
       const auto ways = known.to(lights);
       for (int round = 0; round < 10; ++round)
         for (std::uint32_t id = 0; id < scene.mesh->triangles.size(); ++id)
-          for (std::size_t i = 0; i < lights.size(); ++i)
-            EXPECT_TRUE(!ways[i]->is_clear(id, 16) || has_clear_way(tracer.trees(), id, lights[i]));
+          for (std::size_t i = 0; i < lights.size(); ++i) {
+            const ClearWays::Way way = ways[i]->way_of(id, round < 5 ? 16 : 500);
+            EXPECT_TRUE(way != ClearWays::Way::clear || has_clear_way(tracer.trees(), id, lights[i]));
+            if (way != ClearWays::Way::by_part) continue;
+            const std::uint32_t part = id % kParts;
+            EXPECT_TRUE(!ways[i]->is_part_clear(id, part, 40) ||
+                        has_clear_way(tracer.trees(), id, lights[i], part_of_inside(part)));
+          }
     });
   for (std::thread& thread : threads) thread.join();
 }

@@ -49,6 +49,9 @@ struct LaneProbe {
                   std::uint32_t dimension, float* u, float* v, std::size_t count);
   // x^y for x > 0.
   void (*power)(const float* x, const float* y, float* result, std::size_t count);
+  // The parts of triangles (part_of_inside) in which points with these weights of the second and third corner
+  // are.
+  void (*parts)(const float* y, const float* z, std::uint32_t* number, std::size_t count);
   SampleTextures sample_textures;
   // A channel of the place's texture at `points`, not filtered.
   void (*channel)(const TexturePlace& place, unsigned lanes, int channel, const TexturePoints& points,

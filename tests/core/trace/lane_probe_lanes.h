@@ -2,6 +2,7 @@
 #include "core/simd/lanes.h"
 #include "core/trace/lanes/environment_light.h"
 #include "core/trace/lanes/texture.h"
+#include "core/trace/lanes/triangle_part.h"
 #include "tests/core/trace/lane_probe.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -19,6 +20,11 @@ void samples(const shared::Sampling& sampling, const std::uint32_t* x, const std
 void powers(const float* x, const float* y, float* result, std::size_t count) {
   for (std::size_t i = 0; i < count; i += kWidth)
     power(Float::load(x + i), Float::load(y + i)).store(result + i);
+}
+
+void parts(const float* y, const float* z, std::uint32_t* number, std::size_t count) {
+  for (std::size_t i = 0; i < count; i += kWidth)
+    part_of(Vec(Float(0.0f), Float::load(y + i), Float::load(z + i))).store(number + i);
 }
 
 void store(const Vec& v, float* const* columns, std::size_t i) {
@@ -144,8 +150,16 @@ void channel_of_points(const TexturePlace& place, unsigned lanes, int channel, c
 
 }  // namespace
 
-const LaneProbe kProbe{
-    Isa::PINOCCHIO_LANES, kWidth, samples, powers, sample_textures, channel_of_points, environment_lights,
-    environment_samples,  values, angles};
+const LaneProbe kProbe{Isa::PINOCCHIO_LANES,
+                       kWidth,
+                       samples,
+                       powers,
+                       parts,
+                       sample_textures,
+                       channel_of_points,
+                       environment_lights,
+                       environment_samples,
+                       values,
+                       angles};
 
 }  // namespace pinocchio::PINOCCHIO_LANES
