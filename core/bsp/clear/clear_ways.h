@@ -29,7 +29,8 @@ class ClearWays {
     const std::uint8_t known = known_[triangle].load(std::memory_order_acquire);
     if (known == kClear) return Way::clear;
     if (known == kByPart) return Way::by_part;
-    return known == kHidden ? Way::unknown : count(triangle, known, rays);
+    if (known == kHidden || (known == kSearched && rays < kManyAtOnce)) return Way::unknown;
+    return count(triangle, known, rays);
   }
   // Of a part of a triangle whose way is known by_part; likewise.
   [[nodiscard]] bool is_part_clear(std::uint32_t triangle, std::uint32_t part, unsigned rays);
@@ -41,8 +42,9 @@ class ClearWays {
   // the answer. kSearched: of a triangle that is not clear as a whole, until its rays are many.
   static constexpr std::uint8_t kEnough = 64, kSearched = 252, kByPart = 253, kHidden = 254, kClear = 255;
   using States = std::vector<std::atomic<std::uint8_t>>;
-  // A triangle has parts once so many more rays have asked.
-  static constexpr std::uint32_t kEnoughForParts = 1024;
+  // A triangle has parts once so many more rays have asked. They are counted where a packet has several of
+  // them: counting single rays would cost meshes of small triangles more than large ones gain.
+  static constexpr std::uint32_t kEnoughForParts = 4096, kManyAtOnce = 4;
   // Triangles that have parts.
   static constexpr std::size_t kMostByPart = 256;
 
