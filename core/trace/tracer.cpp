@@ -30,10 +30,13 @@ struct IsaEntry {
 };
 
 // The instruction sets of this architecture, narrowest first.
-#define PINOCCHIO_ENTRY(name, lanes, feature) \
-  {Isa::name,      [] { return PINOCCHIO_PROCESSOR_HAS(feature); },                    \
-   name::kKernels, name::kMovingKernel,       \
-   name::kSteps,   name::kWideKernel},
+#define PINOCCHIO_ENTRY(name, lanes, feature)                       \
+  {.isa = Isa::name,                                                \
+   .is_supported = [] { return PINOCCHIO_PROCESSOR_HAS(feature); }, \
+   .kernels = name::kKernels,                                       \
+   .moving = name::kMovingKernel,                                   \
+   .steps = name::kSteps,                                           \
+   .wide = name::kWideKernel},
 const IsaEntry kIsas[]{PINOCCHIO_ISAS(PINOCCHIO_ENTRY)};
 #undef PINOCCHIO_ENTRY
 

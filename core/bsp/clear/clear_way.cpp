@@ -236,7 +236,7 @@ TrianglePart whole_inside() {
 }
 
 TrianglePart part_of_inside(std::uint32_t number) {
-  // A side moves outwards by a third of it, times the length of a part: by five times the error of the sum of
+  // A side moves outwards by a third of that times a part's length: more than ten times the error of a sum of
   // two weights.
   constexpr double kWider = 1.0 + 1.0 / 64.0;
   const std::uint32_t rhombus = number / 2;

@@ -12,7 +12,8 @@ ClearWays::ClearWays(std::shared_ptr<const SceneTrees> trees, const LightPlace& 
     : trees_(std::move(trees)),
       light_(light),
       known_(trees_->corners.size()),
-      more_(trees_->corners.size()) {}
+      more_(trees_->corners.size()),
+      parts_(kMostByPart * kParts) {}
 
 ClearWays::Way ClearWays::count(std::uint32_t triangle, std::uint8_t known, unsigned rays) {
   if (known == kSearched) return count_for_parts(triangle, rays);
@@ -30,24 +31,18 @@ ClearWays::Way ClearWays::count_for_parts(std::uint32_t triangle, unsigned rays)
     more_[triangle].compare_exchange_strong(asked, static_cast<std::uint16_t>(asked + rays));
     return Way::unknown;
   }
-  const std::scoped_lock lock(mutex_);
-  std::atomic<std::uint8_t>& state = known_[triangle];
-  if (state.load() != kSearched) return Way::unknown;
-  try {
-    if (by_part_ < kMostByPart) {
-      parts_[by_part_] = States(kParts);
-      more_[triangle].store(static_cast<std::uint16_t>(kIndex + by_part_++));
-      state.store(kByPart);
-      return Way::by_part;
-    }
-  } catch (const std::bad_alloc&) {  // tracing needs no more memory
-  }
-  state.store(kHidden);
-  return Way::unknown;
+  std::uint8_t searched = kSearched;  // one thread goes on; the others see a hidden triangle meanwhile
+  if (!known_[triangle].compare_exchange_strong(searched, kHidden)) return Way::unknown;
+  const std::uint32_t index = by_part_.fetch_add(1);
+  if (index >= kMostByPart) return Way::unknown;
+  more_[triangle].store(static_cast<std::uint16_t>(kIndex + index));
+  known_[triangle].store(kByPart);
+  return Way::by_part;
 }
 
 bool ClearWays::is_part_clear(std::uint32_t triangle, std::uint32_t part, unsigned rays) {
-  std::atomic<std::uint8_t>& state = parts_[more_[triangle].load(std::memory_order_relaxed) - kIndex][part];
+  const std::size_t index = more_[triangle].load(std::memory_order_relaxed) - kIndex;
+  std::atomic<std::uint8_t>& state = parts_[index * kParts + part];
   const std::uint8_t known = state.load(std::memory_order_relaxed);
   if (known >= kEnough) return known == kClear;
   if (known + rays < kEnough) {

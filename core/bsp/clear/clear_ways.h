@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -54,13 +53,12 @@ class ClearWays {
   std::shared_ptr<const SceneTrees> trees_;
   LightPlace light_;
   States known_;  // by triangle
-  // Of a triangle in state kSearched the rays that have asked since; in state kByPart kIndex + an index of
-  // parts_.
+  // Of a triangle in state kSearched the rays that have asked since; in state kByPart kIndex + the number of
+  // its kParts states in parts_.
   static constexpr std::uint16_t kIndex = 0x8000;
   std::vector<std::atomic<std::uint16_t>> more_;
-  std::mutex mutex_;
-  std::size_t by_part_ = 0;
-  std::array<States, kMostByPart> parts_;
+  std::atomic<std::uint32_t> by_part_ = 0;  // triangles that have asked for parts
+  States parts_;
 };
 
 // The clear ways to a scene's lights in one pose. May be called from many threads.
