@@ -1,4 +1,4 @@
-// What the tile pass gives for a scene: all layers at once.
+// All layers that the tile pass draws of a scene.
 #pragma once
 
 #include "core/trace/tiles/trace_tiles.h"

@@ -22,8 +22,8 @@ class ClearWays {
   ClearWays(std::shared_ptr<const SceneTrees> trees, const LightPlace& light);
 
   enum class Way { unknown, clear, by_part };
-  // Of a whole triangle. rays: how many rays ask now. The call with which a triangle's rays reach kEnough
-  // searches: by then, tracing them has taken about as long as a search takes.
+  // What is known of the way from a whole triangle. rays: how many rays ask now. Once kEnough rays have
+  // asked, tracing them has taken about as long as a search: then the call searches.
   [[nodiscard, gnu::always_inline]] Way way_of(std::uint32_t triangle, unsigned rays) {
     const std::uint8_t known = known_[triangle].load(std::memory_order_acquire);
     if (known == kClear) return Way::clear;
@@ -31,7 +31,8 @@ class ClearWays {
     if (known == kHidden || (known == kSearched && rays < kManyAtOnce)) return Way::unknown;
     return count(triangle, known, rays);
   }
-  // Of a part of a triangle whose way is known by_part; likewise.
+  // Whether the way from that part is known to be clear. For triangles of which way_of() answers by_part;
+  // counts and searches as it does.
   [[nodiscard]] bool is_part_clear(std::uint32_t triangle, std::uint32_t part, unsigned rays);
 
   [[nodiscard]] const LightPlace& light() const { return light_; }
@@ -53,8 +54,8 @@ class ClearWays {
   std::shared_ptr<const SceneTrees> trees_;
   LightPlace light_;
   States known_;  // by triangle
-  // Of a triangle in state kSearched the rays that have asked since; in state kByPart kIndex + the number of
-  // its kParts states in parts_.
+  // By triangle. In state kSearched: the rays that have asked since. In state kByPart: kIndex + n, where its
+  // parts' states begin at parts_[n * kParts].
   static constexpr std::uint16_t kIndex = 0x8000;
   std::vector<std::atomic<std::uint16_t>> more_;
   std::atomic<std::uint32_t> by_part_ = 0;  // triangles that have asked for parts
