@@ -11,6 +11,7 @@
 #include "core/bsp/moving/posed_trees.h"
 #include "core/bsp/wide/wide_on_demand.h"
 #include "core/trace/lanes/lane_steps.h"
+#include "core/trace/settled/settled_triangles.h"
 #include "core/trace/rays/coherence.h"
 #include "core/trace/rays/ray_sorter.h"
 #include "core/trace/walk/kernels.h"
@@ -152,8 +153,10 @@ Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Is
         before && before->wide_ && before->trees_->still == trees_->still && before->isa_ == isa_;
     wide_ = kept ? before->wide_ : std::make_shared<WideOnDemand>(trees_->still, isa_, options.threads);
   }
-  if (isa_ != Isa::scalar && offset == OffsetMethod::error_bound && ClearWaysToLights::serves(*trees_))
+  if (isa_ != Isa::scalar && offset == OffsetMethod::error_bound && ClearWaysToLights::serves(*trees_)) {
     clear_ways_ = std::make_shared<ClearWaysToLights>(trees_);
+    settled_ = std::make_shared<SettledUnderLights>(mesh_);
+  }
   build_end_s_ = now_s();
 }
 

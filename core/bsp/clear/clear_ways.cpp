@@ -54,6 +54,16 @@ bool ClearWays::is_part_clear(std::uint32_t triangle, std::uint32_t part, unsign
   return clear;
 }
 
+ClearWays::Way ClearWays::known_way(std::uint32_t triangle) const {
+  const std::uint8_t known = known_[triangle].load(std::memory_order_acquire);
+  return known == kClear ? Way::clear : known == kByPart ? Way::by_part : Way::unknown;
+}
+
+bool ClearWays::is_part_known_clear(std::uint32_t triangle, std::uint32_t part) const {
+  const std::size_t index = more_[triangle].load(std::memory_order_relaxed) - kIndex;
+  return parts_[index * kParts + part].load(std::memory_order_relaxed) == kClear;
+}
+
 bool ClearWaysToLights::serves(const SceneTrees& trees) {
   return trees.top.empty() && trees.still->test == TriangleTest::filtered &&
          !trees.still->triangles.empty() && trees.corners.size() <= kLargeMesh;

@@ -35,6 +35,10 @@ class ClearWays {
   // counts and searches as it does.
   [[nodiscard]] bool is_part_clear(std::uint32_t triangle, std::uint32_t part, unsigned rays);
 
+  // The same without asking: what earlier calls have found.
+  [[nodiscard]] Way known_way(std::uint32_t triangle) const;
+  [[nodiscard]] bool is_part_known_clear(std::uint32_t triangle, std::uint32_t part) const;
+
   [[nodiscard]] const LightPlace& light() const { return light_; }
 
  private:

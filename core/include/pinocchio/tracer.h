@@ -25,6 +25,7 @@ struct RayColumns;
 struct SceneTrees;
 struct WideTree;
 class ClearWaysToLights;
+class SettledUnderLights;
 class WideOnDemand;
 
 // The instruction set, which sets the width of ray packets.
@@ -74,6 +75,8 @@ class Tracer {
                 const PassedSurfaces* passed = nullptr) const;
   // Null: all shadow rays are to be traced.
   [[nodiscard]] ClearWaysToLights* clear_ways() const { return clear_ways_.get(); }
+  // Null where clear_ways() is.
+  [[nodiscard]] SettledUnderLights* settled() const { return settled_.get(); }
   // The steps of the tile pass at this tracer's width.
   [[nodiscard]] const LaneSteps& steps() const;
 
@@ -96,6 +99,7 @@ class Tracer {
   std::shared_ptr<const SceneTrees> trees_;
   std::shared_ptr<WideOnDemand> wide_;             // null: the trees have none
   std::shared_ptr<ClearWaysToLights> clear_ways_;  // likewise
+  std::shared_ptr<SettledUnderLights> settled_;    // likewise
   Isa isa_;
   RayOffset offset_;
 };

@@ -12,6 +12,7 @@
 #include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/sampled.h"
 #include "core/trace/lanes/scatter.h"
+#include "core/trace/lanes/settled.h"
 #include "core/trace/lanes/terminator.h"
 #include "core/trace/lanes/triangle_part.h"
 #include "pinocchio/conversion.h"
@@ -31,29 +32,6 @@ void camera_rays(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& ra
     put(first + step_x * x + step_y * y, view.parallel ? rays.origin : rays.direction, i);
     put(same, view.parallel ? rays.direction : rays.origin, i);
   }
-}
-
-void keep_hits(RayQueue& rays) {
-  const Int none(kNoTriangle);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < rays.size; i += kWidth) {
-    const Int triangle = Int::load(rays.triangle + i);
-    const Mask rest = lanes_from(i, rays.size), hits = rest & ~(triangle == none);
-    const unsigned bits = hits.bits();
-    if (bits != 0 && (kept < i || bits != rest.bits())) {
-      for (float* const* columns : {rays.origin, rays.direction, rays.light})
-        for (int axis = 0; axis < 3; ++axis)
-          store_packed(columns[axis] + kept, Float::load(columns[axis] + i), hits);
-      store_packed(rays.pixel + kept, Int::load(rays.pixel + i), hits);
-      if (rays.width) store_packed(rays.width + kept, Float::load(rays.width + i), hits);
-      if (rays.density) store_packed(rays.density + kept, Float::load(rays.density + i), hits);
-      if (rays.way) store_packed(rays.way + kept, Float::load(rays.way + i), hits);
-      if (rays.medium) store_packed(rays.medium + kept, Int::load(rays.medium + i), hits);
-      store_packed(rays.triangle + kept, triangle, hits);
-    }
-    kept += as_size(__builtin_popcount(bits));
-  }
-  rays.size = kept;
 }
 
 // Shadow rays of `lanes` towards a light that casts. They carry `light`.
@@ -350,7 +328,7 @@ void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue&
 
 }  // namespace
 
-const LaneSteps kSteps{camera_rays, keep_hits,   find_holes,     lanes_in_holes,  go_behind,
+const LaneSteps kSteps{camera_rays, keep_hits,   drop_settled,   find_holes,      lanes_in_holes,  go_behind,
                        cross_glass, bounce_rays, visible_points, add_environment, paint_background};
 
 }  // namespace pinocchio::PINOCCHIO_LANES

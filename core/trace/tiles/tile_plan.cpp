@@ -213,6 +213,7 @@ void TilePlan::plan_visible() {
   visible.light_later = visible.tints && !visible.adds_ambient && !visible.adds_light &&
                         !lights_in_reflection && !visible.environment && !visible.prefiltered &&
                         !visible.lobes && !out.sampled && out.indirect == 0;
+  find_settled();
 }
 
 // With on_rays the caller wants to see every ray, so none is left out.
@@ -228,8 +229,30 @@ void TilePlan::find_clear_ways() {
       lights.push_back(&light);
       places.push_back({far ? -glm::vec3(light.params.direction) : glm::vec3(light.params.position), far});
     }
+  if (places.empty()) return;  // what is known of other pictures' lights is kept
   clear_ways = known->to(places);
   for (std::size_t i = 0; i < lights.size(); ++i) lights[i]->clear_ways = clear_ways[i].get();
+}
+
+// Where the step at visible points finds only the mask's bits and mirrored light. Each of the lights has
+// clear ways then.
+void TilePlan::find_settled() {
+  SettledUnderLights* const known = job.tracer.settled();
+  const bool colors = visible.adds_ambient || visible.adds_light || lights_in_reflection ||
+                      visible.environment || visible.prefiltered || visible.lobes ||
+                      visible.tints_at_once() || out.sampled || out.indirect > 0 || catcher;
+  if (!known || !job.options.clear_ways || out.on_rays || colors || !visible.cuts_light() ||
+      job.options.terminator == Terminator::displaced || visible_lights.size() > 1)
+    return;
+  SettledTriangles::Under under{
+      .lights = {}, .mirrors = out.depth > 0, .light_cutoff = job.options.light_cutoff};
+  for (const BounceLight& light : visible_lights.front().lights) {
+    if (light.slot < 0) continue;
+    const auto ways = std::ranges::find(clear_ways, light.clear_ways, &std::shared_ptr<ClearWays>::get);
+    if (!light.clear_ways || ways == clear_ways.end()) return;
+    under.lights.push_back({light.params, static_cast<std::uint8_t>(light.queue), *ways});
+  }
+  if (under.mirrors || !under.lights.empty()) settled = known->of(under);
 }
 
 }  // namespace pinocchio

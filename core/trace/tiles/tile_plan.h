@@ -9,6 +9,7 @@
 #include "core/trace/lanes/environment_params.h"
 #include "core/trace/lanes/lane_steps.h"
 #include "core/trace/rays/material_marks.h"
+#include "core/trace/settled/settled_triangles.h"
 #include "core/trace/tiles/catcher_plane.h"
 #include "core/trace/tiles/trace_tiles.h"
 #include "core/trace/view/ray_model.h"
@@ -55,6 +56,7 @@ struct TilePlan {
   std::size_t most_casting, most_sized;  // casting lights of a group, and those of them with a size
   bool lights_in_reflection = false;     // some group has
   std::vector<std::shared_ptr<ClearWays>> clear_ways;     // to visible_lights
+  std::shared_ptr<SettledTriangles> settled;              // whose points need no step; null: all do
   std::optional<EnvironmentLight> environment, backdrop;  // backdrop: the background, where it is a picture
   std::optional<CatcherPlane> catcher;                    // none: no shadows are caught
   std::shared_ptr<const Environment> behind_scene;        // kept for `backdrop`
@@ -70,6 +72,7 @@ struct TilePlan {
   void plan_sky();
   void plan_visible();
   void find_clear_ways();
+  void find_settled();
 };
 
 }  // namespace pinocchio

@@ -56,7 +56,8 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile, const K
   start();
   find_visible();
   times.primary = lap.restart();
-  if (seen_.size > 0) {
+  sees_something_ = seen_.size > 0;
+  if (sees_something_) {
     light_visible();
     times.shadow = lap.restart();
     follow();
@@ -227,12 +228,21 @@ void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Gener
   plan_->job.tracer.steps().bounce(step, rays);
 }
 
+// Sets the mask at the visible points of which all is known, and drops their rays.
+void TileTracer::drop_settled() {
+  if (!plan_->settled) return;
+  const Footprint* const footprint = plan_->model ? nullptr : &plan_->seen_footprint;
+  counts_.shadow += plan_->job.tracer.steps().drop_settled(*plan_->settled, plan_->visible.scene, footprint,
+                                                           seen_, mask_.data());
+}
+
 void TileTracer::light_visible() {
   mask_.assign(as_size(plan_->visible_lights.back().byte + 1) * kPixels, 0);
   if (plan_->visible.adds_light) {
     direct_.fill(glm::vec4(0.0f));
     for (std::size_t i = 0; i < seen_.size; ++i) direct_[seen_.pixel[i]].a = 1.0f;
   }
+  drop_settled();
   next_diffuse_.make_room(0, extra_columns());
   make_room(seen_.size, rays_);
   Bounce step = plan_->visible;
@@ -371,7 +381,7 @@ void TileTracer::write() {
   if (out.reflection && out.caught_in_reflection) write_lost();
   if (out.sampled) write_sampled(*out.sampled, 0);
   if (plan_->beyond) write_sampled(*plan_->beyond, kPixels);
-  if (out.mask && seen_.size > 0) write_mask(*out.mask);
+  if (out.mask && sees_something_) write_mask(*out.mask);
   if (!out.color && !out.added) return;
   const bool has_background =
       plan_->backdrop || plan_->job.options.background.kind == Background::Kind::color;

@@ -50,6 +50,7 @@ class TileTracer {
   void fetch_ids();
   void find_hits(RayQueue& rays, int generation, bool of_camera = false);
   void find_visible();
+  void drop_settled();
   void light_visible();
   void follow();
   [[nodiscard]] int generation_of(int bounce_count, int step_count) const;
@@ -112,6 +113,7 @@ class TileTracer {
   // pixel: the light of the plane (RGB) and what shadows take from it (A), then the lost share (A).
   RayQueue ground_, straight_ground_;
   alignas(16) Radiance<kPixels> ground_light_;
+  bool sees_something_ = false;             // some pixel of the tile does
   Footprint seen_footprint_;                // of the tile, where a RayModel makes the rays
   bool reflects_ = false;                   // reflected_ may hold light
   std::vector<std::uint8_t> mask_;          // kPixels for each byte of the mask

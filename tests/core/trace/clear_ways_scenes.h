@@ -67,4 +67,23 @@ inline std::vector<Scene> meshes() {
   return all;
 }
 
+// Of all kinds without a size, from all sides.
+inline void add_lights(Scene& scene, int count) {
+  const Bounds box = scene.mesh->bounds();
+  Random random(23);
+  for (int i = 0; i < count; ++i) {
+    Light light = point_light(box.center() + box.diagonal() * random_point(random, 1.0f));
+    if (i % 3 == 1) {
+      light.kind = Light::Kind::directional;
+      light.direction = glm::normalize(random_point(random, 1.0f));
+    } else if (i % 3 == 2) {
+      light.kind = Light::Kind::spot;
+      light.direction = glm::normalize(box.center() - light.position);
+      light.cos_inner = 0.95f;
+      light.cos_outer = 0.8f;
+    }
+    scene.lights.push_back(light);
+  }
+}
+
 }  // namespace pinocchio

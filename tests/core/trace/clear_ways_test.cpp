@@ -32,30 +32,11 @@ void expect_same(const DrawnTiles& a, const DrawnTiles& b) {
   EXPECT_EQ(a.rays.shadow, b.rays.shadow);
 }
 
-// Ten lights: more than a byte of the mask has.
-void add_lights(Scene& scene) {
-  const Bounds box = scene.mesh->bounds();
-  Random random(23);
-  for (int i = 0; i < 10; ++i) {
-    Light light = point_light(box.center() + box.diagonal() * random_point(random, 1.0f));
-    if (i % 3 == 1) {
-      light.kind = Light::Kind::directional;
-      light.direction = glm::normalize(random_point(random, 1.0f));
-    } else if (i % 3 == 2) {
-      light.kind = Light::Kind::spot;
-      light.direction = glm::normalize(box.center() - light.position);
-      light.cos_inner = 0.95f;
-      light.cos_outer = 0.8f;
-    }
-    scene.lights.push_back(light);
-  }
-}
-
 std::vector<Scene> lit_scenes() {
   std::vector<Scene> all = meshes();
   for (const std::string& name : own_scenes()) all.push_back(load_or_die(source_path(name)));
   for (Scene& scene : all) {
-    add_lights(scene);
+    add_lights(scene, 10);  // more than a byte of the mask has
     MeshEdit mesh(scene);
     Material glass = mesh->materials[0];
     glass.transmittance = glm::vec3(0.9f);
@@ -94,7 +75,7 @@ TEST(ClearWays, PicturesKeepTheirBits) {
 TEST(ClearWays, PicturesKeepTheirBitsPartByPart) {
   Workers workers(2);
   Scene scene = plate_over_floor();
-  add_lights(scene);
+  add_lights(scene, 10);
   const LightPlace above{{0.5f, 5.0f, 0.5f}, false};
   scene.lights.push_back(point_light(above.at));
   const Tracer tracer(scene.mesh);
@@ -112,7 +93,7 @@ TEST(ClearWays, PicturesKeepTheirBitsPartByPart) {
 
 TEST(ClearWays, LightsThatMoveAreAskedAnew) {
   Scene scene = jagged_ball(24);
-  add_lights(scene);
+  add_lights(scene, 10);
   const Tracer tracer(scene.mesh);
   Workers workers(2);
   TraceJob job{scene, tracer, workers, view_params(camera_for_whole_scene(scene), kSize)};
