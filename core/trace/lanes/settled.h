@@ -130,11 +130,11 @@ std::size_t drop_settled(SettledTriangles& settled, const SceneArrays& scene, co
                                     footprint, triangle);
     if (dropped.bits() != 0) {
       alignas(64) std::uint32_t lights[kWidth];
-      packet.lights().store(lights);
-      for (unsigned rest = dropped.bits(); rest != 0; rest &= rest - 1) {
-        const int lane = __builtin_ctz(rest);
-        mask[rays.pixel[i + as_size(lane)]] = static_cast<std::uint8_t>(lights[lane]);
-        reached += as_size(__builtin_popcount(lights[lane]));
+      select(dropped, packet.lights(), Int(0u)).store(lights);
+      const std::size_t count = std::min(std::size_t{kWidth}, rays.size - i);
+      for (std::size_t k = 0; k < count; ++k) {
+        mask[rays.pixel[i + k]] = static_cast<std::uint8_t>(lights[k]);
+        reached += as_size(__builtin_popcount(lights[k]));
       }
     }
     keep(rays, i, lanes & ~dropped, kept);

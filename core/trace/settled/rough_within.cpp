@@ -15,16 +15,19 @@ namespace {
 
 constexpr int kSquareSide = Texture::kGreenSide;
 
-// Squares that are looked at for a part. A look-up takes about a nanosecond.
-constexpr std::size_t kMostSquares = std::size_t{1} << 14;
+// Squares that are looked at for one answer. A look-up takes about a nanosecond.
+constexpr std::size_t kMostSquares = std::size_t{1} << 12;
+
+// Texels. Longer footprints see almost nothing of what a texture shows.
+constexpr int kLongest = 128;
 
 // Further away, coordinates are rounded by more than a quarter of a texel.
 constexpr double kFar = 0x1p22;
 
-// The longest footprint, texels, whose look-ups stay within so many texels, which are a power of two or more
-// than 40: `reach` in all_green of lanes/texture.h.
-constexpr double longest_within(double texels) {
-  return texels / 4.0;
+// How far from a point look-ups of a footprint reach, texels, if it is a power of two or shorter (`reach` in
+// all_green of lanes/texture.h).
+int reach_of(int footprint) {
+  return as_int(std::ceil(2.2 * footprint + 1.0));
 }
 
 int wrapped(int texel, int count, Wrap wrap) {
@@ -34,16 +37,15 @@ int wrapped(int texel, int count, Wrap wrap) {
   return at < count ? at : period - 1 - at;
 }
 
-// The squares along a side that hold the texels from `lo` to `hi`.
-std::vector<int> squares_of(double lo, double hi, int count, Wrap wrap) {
+// Squares along a side, of texels from `lo` to `hi` that are at most `apart` from each other, the first and
+// the last among them.
+std::vector<int> squares_of(double lo, double hi, int apart, int count, Wrap wrap) {
+  const int first = static_cast<int>(std::floor(lo));
+  const int last = std::min(static_cast<int>(std::floor(hi)), first + 2 * count);  // all of a mirrored one
   std::vector<int> squares;
-  const int first = static_cast<int>(std::floor(lo)), last = static_cast<int>(std::floor(hi));
-  for (int texel = first; texel <= std::min(last, first + 2 * count); ++texel)
-    if (const int square = wrapped(texel, count, wrap) / kSquareSide;
-        squares.empty() || squares.back() != square)
-      squares.push_back(square);
-  std::ranges::sort(squares);
-  squares.erase(std::ranges::unique(squares).begin(), squares.end());
+  for (int texel = first; texel < last; texel += apart)
+    squares.push_back(wrapped(texel, count, wrap) / kSquareSide);
+  squares.push_back(wrapped(last, count, wrap) / kSquareSide);
   return squares;
 }
 
@@ -82,59 +84,51 @@ struct OnTexture {
   }
 };
 
-// Whether all greens in a part of a texture, and around it, are at least that.
+// The greens in a part of a texture, and around it.
 class Greens {
  public:
-  Greens(const Texture& texture, const TextureUse& use, const OnTexture& triangle, double least)
-      : texture_(texture), use_(use), least_(least) {
+  Greens(const Texture& texture, const TextureUse& use, const OnTexture& triangle)
+      : texture_(texture), use_(use) {
     lo_ = glm::min(glm::min(triangle.at[0], triangle.at[1]), triangle.at[2]) - 1.0;
     hi_ = glm::max(glm::max(triangle.at[0], triangle.at[1]), triangle.at[2]) + 1.0;
-    known_ = -kFar < lo_.x && -kFar < lo_.y && hi_.x < kFar && hi_.y < kFar;
   }
 
-  // The longest footprint, texels, for which they are.
-  [[nodiscard]] double longest_footprint() const {
+  // The longest footprint, texels, for which all are at least that.
+  [[nodiscard]] double longest_footprint(double least) const {
     double longest = 0.0;
-    if (!known_) return longest;
-    const std::array<int, Texture::kGreenReaches> greens = least_greens(0.0);
-    for (int k = 0; k < Texture::kGreenReaches; ++k) {
-      if (greens[as_size(k)] < least_) return longest;
-      longest = longest_within(as_float(kSquareSide << k));
-    }
-    constexpr double kReach = kSquareSide << (Texture::kGreenReaches - 1);
-    for (double further = kReach; further < 16.0 * kReach; further *= 2.0) {
-      if (least_greens(further).back() < least_) return longest;
-      longest = longest_within(kReach + further);
-    }
+    if (!(-kFar < lo_.x && -kFar < lo_.y && hi_.x < kFar && hi_.y < kFar)) return longest;
+    for (int footprint = 1; footprint <= kLongest && are_at_least(least, reach_of(footprint)); footprint *= 2)
+      longest = footprint;
     return longest;
   }
 
  private:
-  // The least within each reach of texels that are at most `further` away; 0 where there are too many.
-  [[nodiscard]] std::array<int, Texture::kGreenReaches> least_greens(double further) const {
-    std::array<int, Texture::kGreenReaches> least{};
-    const glm::ivec2 size = texture_.size();
-    const std::vector<int> columns = squares_of(lo_.x - further, hi_.x + further, size.x, use_.wrap_u),
-                           rows = squares_of(lo_.y - further, hi_.y + further, size.y, use_.wrap_v);
-    if (columns.size() * rows.size() > kMostSquares) return least;
-    least.fill(255);
-    const auto squares = as_size((size.x + kSquareSide - 1) / kSquareSide);
-    for (const int row : rows) {
-      for (const int column : columns) {
-        const std::uint32_t found = texture_.least_green[as_size(row) * squares + as_size(column)];
-        for (std::size_t k = 0; k < least.size(); ++k)
-          least[k] = std::min(least[k], as_int(found >> 8 * k & 0xffu));
-      }
-      if ((further > 0.0 ? least.back() : least.front()) < least_) break;
+  // Whether those are that are so many texels away, or nearer; false where too many would have to be read.
+  [[nodiscard]] bool are_at_least(double least, int texels) const {
+    int reach = kSquareSide, byte = 0;  // of each square that is looked at
+    while (2 * reach <= texels && byte + 1 < Texture::kGreenReaches) {
+      reach *= 2;
+      ++byte;
     }
-    return least;
+    const double further = texels - reach;
+    const glm::ivec2 size = texture_.size();
+    const std::vector<int> columns =
+                               squares_of(lo_.x - further, hi_.x + further, 2 * reach, size.x, use_.wrap_u),
+                           rows =
+                               squares_of(lo_.y - further, hi_.y + further, 2 * reach, size.y, use_.wrap_v);
+    if (columns.size() * rows.size() > kMostSquares) return false;
+    const auto squares = as_size((size.x + kSquareSide - 1) / kSquareSide);
+    return std::ranges::all_of(rows, [&](int row) {
+      return std::ranges::all_of(columns, [&](int column) {
+        const std::uint32_t found = texture_.least_green[as_size(row) * squares + as_size(column)];
+        return least <= as_float(found >> 8 * byte & 0xffu);
+      });
+    });
   }
 
   const Texture& texture_;
   const TextureUse& use_;
-  double least_;
   glm::dvec2 lo_, hi_;
-  bool known_;
 };
 
 const MaterialMaps* maps_of(const Mesh& mesh, const Material& m) {
@@ -174,8 +168,8 @@ float rough_within(const Mesh& mesh, std::uint32_t triangle, const TrianglePart&
   const MaterialMaps& maps = *maps_of(mesh, m);
   const OnTexture on(mesh, maps.metallic_roughness, texture->size(), triangle, part);
   const double least = 255.0 * 1.00001 * shared::kRoughestMirror / maps.surface.roughness;
-  const Greens greens(*texture, maps.metallic_roughness, on, least);
-  const double longest = 0.99 * greens.longest_footprint() / on.texels_per_unit;
+  const Greens greens(*texture, maps.metallic_roughness, on);
+  const double longest = 0.99 * greens.longest_footprint(least) / on.texels_per_unit;
   return longest > 0.0 ? static_cast<float>(longest) : 0.0f;  // not a number: the triangle is a line
 }
 

@@ -43,13 +43,13 @@ SettledPoints SettledTriangles::searched(const PartOfMesh& part, SettledPoints k
   const Material& m = mesh_->materials[mesh_->triangle_materials[part.triangle]];
   if ((under_.mirrors && !may_be_rough(*mesh_, m)) || (!under_.lights.empty() && !may_know_lights(m)))
     return {.state = SettledPoints::State::never};
-  const TrianglePart weights = part.number ? part_of_inside(*part.number) : whole_inside();
-  const float rough =
-      under_.mirrors ? rough_within(*mesh_, part.triangle, weights) : std::numeric_limits<float>::infinity();
-  if (rough == 0.0f) return asking;
   const std::optional<std::uint8_t> lights =
       known_lights(*mesh_, part, from_front, under_.lights, under_.light_cutoff);
   if (!lights) return asking;
+  const TrianglePart weights = part.number ? part_of_inside(*part.number) : whole_inside();
+  const float rough =
+      under_.mirrors ? rough_within(*mesh_, part.triangle, weights) : std::numeric_limits<float>::infinity();
+  if (rough == 0.0f) return part.number ? SettledPoints{.state = SettledPoints::State::never} : asking;
   return {SettledPoints::State::settled, from_front, *lights, std::bit_cast<std::uint32_t>(rough)};
 }
 
