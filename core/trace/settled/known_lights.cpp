@@ -124,7 +124,7 @@ class LightAtFacet {
 
   // A lower bound of the cosine that shading uses, where is_in_front_of_normals().
   [[nodiscard]] double least_n_dot_l() const {
-    // Interpolated normals are divided by their length, which is at most that of the vertices' mean.
+    // Interpolated normals are divided by their length, which is at most the mean of the vertices'.
     return scaled_.lo / distance_.hi;
   }
 

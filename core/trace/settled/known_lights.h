@@ -27,10 +27,10 @@ struct PartOfMesh {
 // Whether it may be known which lights reach points of the material.
 [[nodiscard]] bool may_know_lights(const Material& m);
 
-// The bits of the lights that surely reach all points of that part, where none of the others surely reaches
-// any: what the bounce step would find with TraceOptions::light_cutoff `cutoff`, at points that are seen from
-// the front (from where the corners turn counterclockwise) or from the back. None: that differs from point to
-// point, or is not certain.
+// The bits of the lights that surely reach all points of that part, if the others surely reach none: what the
+// bounce step would find with TraceOptions::light_cutoff `cutoff`, at points that are seen from the front
+// (from where the corners turn counterclockwise) or from the back. None: that differs from point to point, or
+// is not certain.
 [[nodiscard]] std::optional<std::uint8_t> known_lights(const Mesh& mesh, const PartOfMesh& part,
                                                        bool from_front, const std::vector<MaskLight>& lights,
                                                        float cutoff);

@@ -40,8 +40,13 @@ int wrapped(int texel, int count, Wrap wrap) {
 // Squares along a side, of texels from `lo` to `hi` that are at most `apart` from each other, the first and
 // the last among them.
 std::vector<int> squares_of(double lo, double hi, int apart, int count, Wrap wrap) {
-  const int first = static_cast<int>(std::floor(lo));
-  const int last = std::min(static_cast<int>(std::floor(hi)), first + 2 * count);  // all of a mirrored one
+  int first = static_cast<int>(std::floor(lo)), last = static_cast<int>(std::floor(hi));
+  if (wrap == Wrap::clamp) {
+    first = std::clamp(first, 0, count - 1);
+    last = std::clamp(last, 0, count - 1);
+  } else {
+    last = std::min(last, first + 2 * count);  // all of a mirrored one
+  }
   std::vector<int> squares;
   for (int texel = first; texel < last; texel += apart)
     squares.push_back(wrapped(texel, count, wrap) / kSquareSide);

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/bsp/clear/clear_way.h"
@@ -18,8 +20,8 @@ struct SettledPoints {
   // asking: too few rays have asked. by_part: its parts are known, each for itself. never: points differ.
   enum class State : std::uint8_t { asking, settled, by_part, never };
   State state = State::asking;
-  bool from_front = false;  // settled: the side that it is seen from
-  std::uint8_t lights = 0;  // settled: the bits of those that reach it, in the mask
+  bool from_front = false;   // settled: the side that it is seen from
+  std::uint16_t lights = 0;  // settled: the bits of those that reach it, in the mask
   // asking: rays that have asked. by_part: the number that part_of() wants. settled: the bits of
   // `rough_within`.
   std::uint32_t more = 0;
@@ -59,7 +61,8 @@ class SettledTriangles {
 
  private:
   using States = std::vector<std::atomic<std::uint64_t>>;
-  static_assert(sizeof(SettledPoints) == sizeof(std::uint64_t));
+  static_assert(std::has_unique_object_representations_v<SettledPoints> &&
+                sizeof(SettledPoints) == sizeof(std::uint64_t));
   // The rays that have asked before the first search, and after the last one.
   static constexpr std::uint32_t kFirstSearch = 64, kEnough = 1024;
   static constexpr std::size_t kMostByPart = 256;

@@ -210,9 +210,7 @@ void TilePlan::plan_visible() {
   lights_in_reflection = std::ranges::any_of(visible_lights, &LightGroup::in_reflection);
   find_clear_ways();
   visible = lit_by(visible_lights.front(), visible);
-  visible.light_later = visible.tints && !visible.adds_ambient && !visible.adds_light &&
-                        !lights_in_reflection && !visible.environment && !visible.prefiltered &&
-                        !visible.lobes && !out.sampled && out.indirect == 0;
+  visible.light_later = visible.tints && finds_mask_alone();
   find_settled();
 }
 
@@ -234,15 +232,16 @@ void TilePlan::find_clear_ways() {
   for (std::size_t i = 0; i < lights.size(); ++i) lights[i]->clear_ways = clear_ways[i].get();
 }
 
-// Where the step at visible points finds only the mask's bits and mirrored light. Each of the lights has
-// clear ways then.
+bool TilePlan::finds_mask_alone() const {
+  return !visible.adds_ambient && !visible.adds_light && !lights_in_reflection && !visible.environment &&
+         !visible.prefiltered && !visible.lobes && !out.sampled && out.indirect == 0;
+}
+
+// Where each light has clear ways, and one byte of the mask holds all. Displaced shadow rays start elsewhere.
 void TilePlan::find_settled() {
   SettledUnderLights* const known = job.tracer.settled();
-  const bool colors = visible.adds_ambient || visible.adds_light || lights_in_reflection ||
-                      visible.environment || visible.prefiltered || visible.lobes ||
-                      visible.tints_at_once() || out.sampled || out.indirect > 0 || catcher;
-  if (!known || !job.options.clear_ways || out.on_rays || colors || !visible.cuts_light() ||
-      job.options.terminator == Terminator::displaced || visible_lights.size() > 1)
+  if (!known || !job.options.clear_ways || out.on_rays || !finds_mask_alone() || catcher ||
+      !visible.cuts_light() || job.options.terminator == Terminator::displaced || visible_lights.size() > 1)
     return;
   SettledTriangles::Under under{
       .lights = {}, .mirrors = out.depth > 0, .light_cutoff = job.options.light_cutoff};

@@ -35,6 +35,9 @@ struct TilePlan {
   // Sets the view of the samples.
   void set_view(const shared::ViewParams& from, const RayModel* rays);
 
+  // True if no light of the visible points themselves is wanted: only which lights reach them, and what they
+  // mirror or let see.
+  [[nodiscard]] bool finds_mask_alone() const;
   // Layers of light that is kept apart for the filter.
   [[nodiscard]] std::size_t sampled_layers() const { return out.sampled ? (beyond ? 2 : 1) : 0; }
 
