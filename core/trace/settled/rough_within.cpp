@@ -24,10 +24,11 @@ constexpr int kLongest = 128;
 // Further away, coordinates are rounded by more than a quarter of a texel.
 constexpr double kFar = 0x1p22;
 
-// How far from a point look-ups of a footprint reach, texels, if it is a power of two or shorter (`reach` in
-// all_green of lanes/texture.h).
+// How far from a point look-ups of a footprint reach, texels, if it is a power of two or shorter: half of it,
+// and one and a half texels of its coarser level (all_green in lanes/texture.h). Sides of at least 64 texels
+// that are no powers of two make a level's texels up to 1.13 times as large, from 32 texels on up to twice.
 int reach_of(int footprint) {
-  return as_int(std::ceil(2.2 * footprint + 1.0));
+  return as_int(std::ceil(0.5 * footprint + 1.5 * (footprint <= 16 ? 1.13 : 2.0) * footprint + 1.0));
 }
 
 int wrapped(int texel, int count, Wrap wrap) {
@@ -37,16 +38,16 @@ int wrapped(int texel, int count, Wrap wrap) {
   return at < count ? at : period - 1 - at;
 }
 
-// Squares along a side, of texels from `lo` to `hi` that are at most `apart` from each other, the first and
-// the last among them.
-std::vector<int> squares_of(double lo, double hi, int apart, int count, Wrap wrap) {
-  int first = static_cast<int>(std::floor(lo)), last = static_cast<int>(std::floor(hi));
+// Squares along a side, of texels that are at most `apart` from each other: the first and the last, and some
+// between, of those that coordinates from `lo` to `hi` name, and of those so much further.
+std::vector<int> squares_of(double lo, double hi, double further, int apart, int count, Wrap wrap) {
   if (wrap == Wrap::clamp) {
-    first = std::clamp(first, 0, count - 1);
-    last = std::clamp(last, 0, count - 1);
-  } else {
-    last = std::min(last, first + 2 * count);  // all of a mirrored one
+    lo = std::clamp(lo, 0.0, count - 1.0);
+    hi = std::clamp(hi, 0.0, count - 1.0);
   }
+  const int first = static_cast<int>(std::floor(lo - further));
+  int last = static_cast<int>(std::floor(hi + further));
+  if (wrap != Wrap::clamp) last = std::min(last, first + 2 * count);  // all of a mirrored one
   std::vector<int> squares;
   for (int texel = first; texel < last; texel += apart)
     squares.push_back(wrapped(texel, count, wrap) / kSquareSide);
@@ -117,10 +118,8 @@ class Greens {
     }
     const double further = texels - reach;
     const glm::ivec2 size = texture_.size();
-    const std::vector<int> columns =
-                               squares_of(lo_.x - further, hi_.x + further, 2 * reach, size.x, use_.wrap_u),
-                           rows =
-                               squares_of(lo_.y - further, hi_.y + further, 2 * reach, size.y, use_.wrap_v);
+    const std::vector<int> columns = squares_of(lo_.x, hi_.x, further, 2 * reach, size.x, use_.wrap_u);
+    const std::vector<int> rows = squares_of(lo_.y, hi_.y, further, 2 * reach, size.y, use_.wrap_v);
     if (columns.size() * rows.size() > kMostSquares) return false;
     const auto squares = as_size((size.x + kSquareSide - 1) / kSquareSide);
     return std::ranges::all_of(rows, [&](int row) {

@@ -273,7 +273,7 @@ TEST(Settled, RoughPartsAreRoughWithinTheirFootprints) {
   int found = 0;
   for (const glm::ivec2 size : {glm::ivec2(64), {257, 100}, {512, 512}})
     for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
-      for (int i = 0; i < 40; ++i) {
+      for (int i = 0; i < 100; ++i) {
         const Scene scene = spotted_floor(size, wrap, std::exp2(random.between(-7, 4)), 0.3f, random, 4);
         const Mesh& mesh = *scene.mesh;
         const glm::uvec3& corners = mesh.triangles[0];
