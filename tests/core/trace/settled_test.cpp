@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <functional>
 #include <memory>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "bench/one_ray/map_lookup.h"
 #include "core/trace/settled/rough_within.h"
@@ -21,29 +25,28 @@ namespace {
 
 constexpr glm::ivec2 kSize{150, 90};  // tiles that are cut off on both sides
 
-// A third of the triangles are Phong's, a third are textured and mirror in some spots, some are glass.
+// Phong's, bright and dim, textured ones that mirror in some spots, glass, and glTF's without textures.
 void give_materials(Scene& scene) {
   Random random(3);
-  const Scene spotted = spotted_floor({64, 64}, Wrap::repeat, 1.0f, 0.0f, random);
+  const Scene floor = spotted_floor({64, 64}, Wrap::repeat, 1.0f, 0.0f, random);
+  const Material textured = floor.mesh->materials[0];
   MeshEdit mesh(scene);
   Material glass;
   glass.transmittance = glm::vec3(0.9f);
   glass.ior = 1.5f;
-  Material plain = spotted.mesh->materials[0];  // glTF's, without textures
+  Material plain = textured;  // glTF's
   plain.maps = -1;
   plain.reflectance = glm::vec3(0.0f);
   plain.fresnel = false;
   Material dim;
   dim.diffuse = glm::vec3(light_cutoff_of(1));  // what they get is below the cutoff, in places
   dim.specular = glm::vec3(0.0f);
-  mesh->materials = {Material{}, spotted.mesh->materials[0], glass, plain, dim};
+  mesh->materials = {Material{}, textured, glass, plain, dim};
   constexpr std::uint32_t kOf[] = {0, 1, 4, 1, 0, 1, 3, 4, 1, 2, 4};
   for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
     mesh->triangle_materials[i] = kOf[i % std::size(kOf)];
-  mesh->maps = spotted.mesh->maps;
-  mesh->textures = {};
-  Random again(3);
-  mesh->textures = {pinocchio::spotted({64, 64}, again), bumps(again)};
+  mesh->maps = floor.mesh->maps;
+  mesh->textures = {spotted({64, 64}, random), bumps(random)};
   mesh->texcoords.clear();
   for (const glm::vec3& p : mesh->positions) mesh->texcoords.emplace_back(p.x + 0.3f * p.y, p.z + 0.2f * p.y);
 }
