@@ -85,12 +85,13 @@ void SettledTriangles::ask_part(std::uint32_t triangle, std::uint32_t part, unsi
 
 std::shared_ptr<SettledTriangles> SettledUnderLights::of(const SettledTriangles::Under& under) {
   const std::scoped_lock lock(mutex_);
+  if (kept_ && kept_->under() == under) return kept_;
   try {
-    if (!last_ || last_->under() != under) last_ = std::make_shared<SettledTriangles>(mesh_, under);
+    if (last_ == under) return kept_ = std::make_shared<SettledTriangles>(mesh_, under);
+    last_ = under;
   } catch (const std::bad_alloc&) {  // the step finds all there is
-    return nullptr;
   }
-  return last_;
+  return nullptr;
 }
 
 }  // namespace pinocchio

@@ -84,13 +84,15 @@ class SettledUnderLights {
  public:
   explicit SettledUnderLights(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)) {}
 
-  // Null: there is no memory. What is known for the last call is kept.
+  // Null: the last call was for others, as while lights move, where searches do not pay; or there is no
+  // memory.
   [[nodiscard]] std::shared_ptr<SettledTriangles> of(const SettledTriangles::Under& under);
 
  private:
   std::shared_ptr<const Mesh> mesh_;
   std::mutex mutex_;
-  std::shared_ptr<SettledTriangles> last_;
+  SettledTriangles::Under last_;  // call's
+  std::shared_ptr<SettledTriangles> kept_;
 };
 
 }  // namespace pinocchio

@@ -101,7 +101,8 @@ std::shared_ptr<SettledTriangles> asked_by(const TraceJob& job) {
   SettledTriangles::Under under{.lights = {}, .mirrors = true, .light_cutoff = job.options.light_cutoff};
   for (std::size_t i = 0; i < ways.size(); ++i)
     under.lights.push_back({light_params(job.scene.lights[i]), static_cast<std::uint8_t>(i), ways[i]});
-  return job.tracer.settled()->of(under);
+  (void)job.tracer.settled()->of(under);
+  return job.tracer.settled()->of(under);  // lights that stay
 }
 
 // One light of a kind, or several of all kinds.
@@ -303,6 +304,20 @@ TEST(Settled, RoughPartsAreRoughWithinTheirFootprints) {
         }
       }
   EXPECT_GT(found, 50);
+}
+
+TEST(Settled, LightsThatMoveAreNotSearched) {
+  const Tracer tracer(ball(12).mesh);
+  SettledTriangles::Under first{.lights = {}, .mirrors = true, .light_cutoff = 0.1f}, second = first;
+  second.light_cutoff = 0.2f;
+  SettledUnderLights& settled = *tracer.settled();
+  EXPECT_FALSE(settled.of(first));
+  EXPECT_FALSE(settled.of(second));
+  EXPECT_FALSE(settled.of(first));
+  const std::shared_ptr<SettledTriangles> kept = settled.of(first);
+  EXPECT_TRUE(kept);
+  EXPECT_FALSE(settled.of(second));
+  EXPECT_EQ(settled.of(first), kept);
 }
 
 TEST(Settled, MayBeAskedFromManyThreads) {
