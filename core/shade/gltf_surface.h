@@ -42,4 +42,15 @@ struct LayerTexels {
   return m.from_gltf && m.surface.layers.any();
 }
 
+// True if it mirrors, transmits or blends somewhere. The values of a material with maps are the most that it
+// does. maps: null: it has none.
+[[nodiscard]] inline bool may_show_beyond(const Material& m, const MaterialMaps* maps) {
+  return m.reflects() || m.transmits() || m.fresnel || (maps && maps->blends());
+}
+
+// True if roughness alone decides where the material mirrors, and it transmits nothing.
+[[nodiscard]] inline bool roughness_decides(const MaterialMaps& m) {
+  return m.from_gltf && !has_layers(m) && m.surface.transmission <= 0.0f;
+}
+
 }  // namespace pinocchio

@@ -9,14 +9,6 @@
 namespace pinocchio {
 namespace {
 
-const std::vector<glm::vec2>& texcoords_of(const Mesh& mesh, const TextureUse& use) {
-  return use.uv_set == 1 ? mesh.texcoords1 : mesh.texcoords;
-}
-
-bool is_readable(const Mesh& mesh, const TextureUse& use) {
-  return use.used() && !texcoords_of(mesh, use).empty();
-}
-
 const Texture& texture_of(const Mesh& mesh, const TextureUse& use) {
   return mesh.textures[as_size(use.texture)];
 }
@@ -53,6 +45,14 @@ std::vector<TextureRead> textures_read(const Mesh& mesh, const MaterialMaps& map
 }
 
 }  // namespace
+
+const std::vector<glm::vec2>& texcoords_of(const Mesh& mesh, const TextureUse& use) {
+  return use.uv_set == 1 ? mesh.texcoords1 : mesh.texcoords;
+}
+
+bool is_readable(const Mesh& mesh, const TextureUse& use) {
+  return use.used() && !texcoords_of(mesh, use).empty();
+}
 
 TexturePlace texture_place(const Mesh& mesh, const TextureUse& use) {
   const Texture& texture = texture_of(mesh, use);

@@ -72,6 +72,10 @@ class LaneMapsOf {
   std::vector<LaneTexture> textures_;
 };
 
+// The coordinates of its UV set; empty: there are none, and the texture is white.
+[[nodiscard]] const std::vector<glm::vec2>& texcoords_of(const Mesh& mesh, const TextureUse& use);
+[[nodiscard]] bool is_readable(const Mesh& mesh, const TextureUse& use);
+
 // Without textures.
 [[nodiscard]] TexturePlace texture_place(const Mesh& mesh, const TextureUse& use);
 [[nodiscard]] LaneTexture lane_texture(const Mesh& mesh, const TextureUse& use, bool is_color, unsigned maps);

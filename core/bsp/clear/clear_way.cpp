@@ -17,11 +17,6 @@ namespace {
 
 using Corners = std::array<glm::dvec3, 3>;
 
-// A triangle is given up if the sine of the angle between two of its edges, or the cosine of the angle
-// between its normal and the light, is less than this: rounding could then start a ray on the wrong side of
-// it.
-constexpr double kLeastSine = 1e-3, kLeastCosine = 1.0 / 64.0;
-
 // All triangles are given up if the scene's largest coordinate is not between these: in single precision the
 // quick tests would overflow, or their margin would round to 0.
 constexpr double kLeastReach = 1e-25, kMostReach = 1e30;
@@ -65,7 +60,7 @@ class Shaft {
     const glm::dvec3 ab = triangle[1] - triangle[0], ac = triangle[2] - triangle[0];
     glm::dvec3 normal = glm::cross(ab, ac);
     const double length = glm::length(normal);
-    if (!(kLeastSine * glm::length(ab) * glm::length(ac) < length)) return {};
+    if (!(kCertainSine * glm::length(ab) * glm::length(ac) < length)) return {};
     normal /= length;
     for (std::size_t i = 0; i < 3; ++i)
       shaft.part_[i] = part[i].x * triangle[0] + part[i].y * triangle[1] + part[i].z * triangle[2];
@@ -73,7 +68,7 @@ class Shaft {
     double distance = 0.0, near = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
       const glm::dvec3 way = shaft.way_from(shaft.part_[i]);
-      if (!(kLeastCosine * glm::length(way) < glm::dot(normal, way))) return {};
+      if (!(kCertainCosine * glm::length(way) < glm::dot(normal, way))) return {};
       distance = std::max(distance, light.far ? 0.0 : glm::length(way));
       near = std::max(near, largest_component(triangle[i]));
     }

@@ -23,6 +23,12 @@ inline constexpr float kInnerWeight = 1.0f / 256.0f;
 // The barycentric weights of points inside a triangle are off by less than this.
 inline constexpr float kWeightError = 0x1p-16f;
 
+// Nothing is known of a triangle if the sine of the angle between two of its edges, or the cosine of the
+// angle between its normal and the light or the viewer, is less than this: rounding could put what is on one
+// side of it on the other.
+inline constexpr double kCertainSine = 1e-3;
+inline constexpr float kCertainCosine = 1.0f / 64.0f;
+
 // Three points inside a triangle, by their weights, and what is between them.
 using TrianglePart = std::array<glm::dvec3, 3>;
 [[nodiscard]] TrianglePart whole_inside();

@@ -22,8 +22,8 @@ class ClearWays {
   ClearWays(std::shared_ptr<const SceneTrees> trees, const LightPlace& light);
 
   enum class Way { unknown, clear, by_part };
-  // What is known of the way from a whole triangle. rays: how many rays ask now. Once kEnough rays have
-  // asked, tracing them has taken about as long as a search: then the call searches.
+  // What is known of the way from a whole triangle, which `rays` more rays ask for. The call that brings them
+  // to kEnough searches: by then, tracing them has taken about as long as a search.
   [[nodiscard, gnu::always_inline]] Way way_of(std::uint32_t triangle, unsigned rays) {
     const std::uint8_t known = known_[triangle].load(std::memory_order_acquire);
     if (known == kClear) return Way::clear;
@@ -31,11 +31,11 @@ class ClearWays {
     if (known == kHidden || (known == kSearched && rays < kManyAtOnce)) return Way::unknown;
     return count(triangle, known, rays);
   }
-  // Whether the way from that part is known to be clear. For triangles of which way_of() answers by_part;
-  // counts and searches as it does.
+  // True if the way from a part is known to be clear. It counts and searches as way_of() does, which must
+  // have answered by_part for the triangle.
   [[nodiscard]] bool is_part_clear(std::uint32_t triangle, std::uint32_t part, unsigned rays);
 
-  // The same without asking: what earlier calls have found.
+  // What those two have found so far. These neither count nor search.
   [[nodiscard]] Way known_way(std::uint32_t triangle) const;
   [[nodiscard]] bool is_part_known_clear(std::uint32_t triangle, std::uint32_t part) const;
 

@@ -145,8 +145,8 @@ struct LaneSteps {
   // Drops the rays whose triangle is kNoTriangle; the others stay in order.
   void (*keep_hits)(RayQueue& rays);
   // Drops the rays that meet settled points, and writes the bits of the lights that reach these to `mask`, by
-  // pixel; the others stay in order. Returns how many lights reach them, point by point. `footprint`: the
-  // camera rays', where the tracer makes them; null: another one, or none.
+  // pixel; the others stay in order. Returns how many lights reach them, point by point. `footprint`: of
+  // the camera's rays; null: a RayModel makes them, so that points with rough textures stay.
   std::size_t (*drop_settled)(SettledTriangles& settled, const SceneArrays& scene, const Footprint* footprint,
                               RayQueue& rays, std::uint8_t* mask);
   // Writes 1 for rays that met a point where alpha lets them pass as if nothing were there, else 0.

@@ -280,7 +280,7 @@ inline Mask surely_rough(const SceneArrays& scene, const LaneMaps& lane_maps, co
                          Int triangle, const Vec& weights, Mask lanes) {
   const MaterialMaps& maps = *lane_maps.maps;
   const float roughness = maps.surface.roughness;
-  if (!maps.from_gltf || has_layers(maps) || maps.surface.transmission > 0.0f) return Mask::from_bits(0);
+  if (!roughness_decides(maps)) return Mask::from_bits(0);
   for (int i = 0; i < lane_maps.count; ++i) {
     const TexturePlace& place = lane_maps.places[i];
     for (int k = 0; k < place.count; ++k) {
@@ -295,14 +295,12 @@ inline Mask surely_rough(const SceneArrays& scene, const LaneMaps& lane_maps, co
   return Mask::from_bits(0);
 }
 
-// The lanes whose material mirrors, transmits or blends somewhere. The values of a material with maps are the
-// most that it does.
+// The lanes whose material mirrors, transmits or blends somewhere.
 inline Mask may_show_beyond(const SceneArrays& scene, Int materials, Mask lanes) {
   unsigned found = 0;
   for_each_distinct(materials, lanes, [&](std::uint32_t index, Mask same) {
     const Material& m = scene.materials[index];
-    if (any_component(m.reflectance) || m.fresnel || m.transmits() || scene.maps[m.maps].maps->blends())
-      found |= same.bits();
+    if (pinocchio::may_show_beyond(m, scene.maps[m.maps].maps)) found |= same.bits();
   });
   return Mask::from_bits(found);
 }

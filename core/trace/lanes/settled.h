@@ -84,11 +84,10 @@ class SettledLanes {
       });
     });
     // Nearly edge on, the side that is seen is not certain.
-    constexpr float kLeastFacing = 1.0f / 64.0f;
     const Vec n = cross(ab_, ac_);
     const Float square = dot(n, n) * dot(direction, direction);
     const Mask sees_side = Mask::from_bits(known_ & ~(front ^ from_front_)) & inside &
-                           (Float(kLeastFacing * kLeastFacing) * square < det * det);
+                           (Float(kCertainCosine * kCertainCosine) * square < det * det);
     if (sees_side.bits() == 0 || !footprint) return sees_side & (rough_within_ == Float(kInfinity));
     // On the triangle's plane, a pixel is longer than its size at that distance by the inverse of the cosine.
     const float step = 1.001f * std::max(glm::length(footprint->step_x), glm::length(footprint->step_y));
@@ -98,7 +97,7 @@ class SettledLanes {
     return sees_side & (distance * Float(step) * sqrt(square) < most) & (Float(kLeast) < most);
   }
 
-  // Of settled lanes, the bits of the lights.
+  // In the lanes that meet() returns: which lights reach the point, as bits of the mask.
   [[nodiscard]] Int lights() const { return lights_; }
 
  private:

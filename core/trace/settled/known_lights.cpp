@@ -10,12 +10,12 @@
 namespace pinocchio {
 namespace {
 
-// Nothing is certain if the cosine of the angle between a normal and the light, or the sine of the angle
-// between two edges, is less than this, or the light is nearer to the triangle's plane than this share of
-// the largest coordinate: rounding could turn the normal from the light or to it.
-constexpr double kLeastCosine = 1.0 / 64.0, kLeastSine = 1e-3, kLeastShare = 0x1p-12;
+// Nothing is certain if a light is nearer to the triangle's plane than this share of the largest coordinate:
+// rounding could move it to the other side.
+constexpr double kLeastShare = 0x1p-12;
 
-// Of edges and distances, so that no product leaves single precision's range.
+// Edges, and distances to a light, outside these are not judged: in single precision, products of them could
+// overflow or round to 0.
 constexpr double kLeastLength = 1e-9, kMostLength = 1e7;
 
 // How much of a light's brightness is left out for roundings.
@@ -40,7 +40,7 @@ struct Facet {
     }
     const glm::dvec3 ab = p[1] - p[0], ac = p[2] - p[0], n = glm::cross(ab, ac);
     const double b = glm::length(ab), c = glm::length(ac), length = glm::length(n);
-    if (!(kLeastLength < std::min(b, c) && std::max(b, c) < kMostLength && kLeastSine * b * c < length))
+    if (!(kLeastLength < std::min(b, c) && std::max(b, c) < kMostLength && kCertainSine * b * c < length))
       return {};
     facet.normal = (from_front ? 1.0 : -1.0) / length * n;
     const TrianglePart weights = part.number ? part_of_inside(*part.number) : whole_inside();
@@ -55,10 +55,10 @@ struct Facet {
     return facet;
   }
 
-  // Whether all interpolated normals are on the side of `normal`.
+  // True if the vertices' normals, and so all between them, are on the triangle's side that `normal` is on.
   [[nodiscard]] bool is_smooth() const {
     return std::ranges::all_of(at_vertices, [&](const glm::dvec3& n) {
-      return kLeastCosine * glm::length(n) < glm::dot(normal, n);
+      return kCertainCosine * glm::length(n) < glm::dot(normal, n);
     });
   }
 };
@@ -95,11 +95,11 @@ class LightAtFacet {
     is_certain_ = kLeastShare * most < plane && kLeastLength < distance_.lo && distance_.hi < kMostLength;
   }
 
-  [[nodiscard]] bool is_in_front() const { return is_certain_ && kLeastCosine < cosine_.lo; }
-  [[nodiscard]] bool is_behind() const { return is_certain_ && cosine_.hi < -kLeastCosine; }
-  // The same of all interpolated normals.
-  [[nodiscard]] bool is_in_front_of_normals() const { return kLeastCosine < of_vertices_.lo; }
-  [[nodiscard]] bool is_behind_normals() const { return of_vertices_.hi < -kLeastCosine; }
+  [[nodiscard]] bool is_in_front() const { return is_certain_ && kCertainCosine < cosine_.lo; }
+  [[nodiscard]] bool is_behind() const { return is_certain_ && cosine_.hi < -kCertainCosine; }
+  // True if all vertices' normals, and so all between them, have the light in front; behind.
+  [[nodiscard]] bool is_in_front_of_normals() const { return kCertainCosine < of_vertices_.lo; }
+  [[nodiscard]] bool is_behind_normals() const { return of_vertices_.hi < -kCertainCosine; }
 
   // The least share of the light's radiance that a point gets.
   [[nodiscard]] double least_share() const {
@@ -134,7 +134,8 @@ class LightAtFacet {
   bool is_certain_ = true;
 };
 
-// What a point without textures gets at least in its brightest colour (most_light in lanes/steps.h).
+// A lower bound of the light that a point without textures gets, in its brightest colour. The cutoff is
+// compared with most_light (lanes/steps.h), which is more.
 double least_light(const Material& m, const glm::dvec3& radiance, double n_dot_l) {
   return kLess * largest_component(radiance * (glm::dvec3(m.diffuse) * n_dot_l + glm::dvec3(m.specular)));
 }

@@ -1,12 +1,12 @@
 #include "core/trace/settled/rough_within.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "core/shade/gltf_surface.h"
+#include "core/shade/lane_maps.h"
 #include "core/shade/shared.h"
 #include "pinocchio/conversion.h"
 
@@ -62,7 +62,7 @@ struct OnTexture {
 
   OnTexture(const Mesh& mesh, const TextureUse& use, glm::ivec2 size, std::uint32_t triangle,
             const TrianglePart& part) {
-    const std::vector<glm::vec2>& texcoords = use.uv_set == 1 ? mesh.texcoords1 : mesh.texcoords;
+    const std::vector<glm::vec2>& texcoords = texcoords_of(mesh, use);
     const glm::uvec3& corners = mesh.triangles[triangle];
     glm::dvec2 uv[3];
     glm::dvec3 p[3];
@@ -139,34 +139,24 @@ const MaterialMaps* maps_of(const Mesh& mesh, const Material& m) {
   return m.maps < 0 ? nullptr : &mesh.maps[as_size(m.maps)];
 }
 
-// Whether it mirrors, transmits or blends somewhere. The values of a material with maps are the most that it
-// does.
-bool may_show_beyond(const Mesh& mesh, const Material& m) {
-  const MaterialMaps* const maps = maps_of(mesh, m);
-  return m.reflects() || m.transmits() || m.fresnel || (maps && maps->blends());
-}
-
-// The texture that decides where the material mirrors; null: it is not one alone (surely_rough in
-// lanes/maps.h).
+// The texture that decides where the material mirrors; null: it is not one alone.
 const Texture* deciding_texture(const Mesh& mesh, const Material& m) {
   const MaterialMaps* const maps = maps_of(mesh, m);
-  if (!maps || !maps->from_gltf || has_layers(*maps) || maps->surface.transmission > 0.0f || maps->blends())
+  if (!maps || !roughness_decides(*maps) || maps->blends() || !is_readable(mesh, maps->metallic_roughness))
     return nullptr;
-  const TextureUse& use = maps->metallic_roughness;
-  if (!use.used() || (use.uv_set == 1 ? mesh.texcoords1 : mesh.texcoords).empty()) return nullptr;
-  const Texture& texture = mesh.textures[as_size(use.texture)];
+  const Texture& texture = mesh.textures[as_size(maps->metallic_roughness.texture)];
   return texture.least_green.empty() ? nullptr : &texture;
 }
 
 }  // namespace
 
 bool may_be_rough(const Mesh& mesh, const Material& m) {
-  return !may_show_beyond(mesh, m) || deciding_texture(mesh, m);
+  return !may_show_beyond(m, maps_of(mesh, m)) || deciding_texture(mesh, m);
 }
 
 float rough_within(const Mesh& mesh, std::uint32_t triangle, const TrianglePart& part) {
   const Material& m = mesh.materials[mesh.triangle_materials[triangle]];
-  if (!may_show_beyond(mesh, m)) return std::numeric_limits<float>::infinity();
+  if (!may_show_beyond(m, maps_of(mesh, m))) return std::numeric_limits<float>::infinity();
   const Texture* const texture = deciding_texture(mesh, m);
   if (!texture) return 0.0f;
   const MaterialMaps& maps = *maps_of(mesh, m);

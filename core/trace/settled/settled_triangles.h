@@ -17,7 +17,7 @@ namespace pinocchio {
 
 // Of a triangle, or of a part of a large one: what hybrid's part finds at each point inside it.
 struct SettledPoints {
-  // asking: too few rays have asked. by_part: its parts are known, each for itself. never: points differ.
+  // asking: not known yet. by_part: its parts are known, each for itself. never: points differ.
   enum class State : std::uint8_t { asking, settled, by_part, never };
   State state = State::asking;
   bool from_front = false;   // settled: the side that it is seen from
@@ -84,14 +84,14 @@ class SettledUnderLights {
  public:
   explicit SettledUnderLights(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)) {}
 
-  // Null: the last call was for others, as while lights move, where searches do not pay; or there is no
-  // memory.
+  // Null until two calls in a row ask for the same: while lights move, searches do not pay. Also null if
+  // there is no memory.
   [[nodiscard]] std::shared_ptr<SettledTriangles> of(const SettledTriangles::Under& under);
 
  private:
   std::shared_ptr<const Mesh> mesh_;
   std::mutex mutex_;
-  SettledTriangles::Under last_;  // call's
+  SettledTriangles::Under last_;  // of the last call
   std::shared_ptr<SettledTriangles> kept_;
 };
 

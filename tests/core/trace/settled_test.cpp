@@ -13,7 +13,7 @@
 #include "bench/one_ray/map_lookup.h"
 #include "core/trace/settled/rough_within.h"
 #include "core/trace/settled/settled_triangles.h"
-#include "core/trace/tiles/trace_tiles.h"
+#include "core/trace/tiles/tile_plan.h"
 #include "core/trace/view/view_params.h"
 #include "tests/core/trace/clear_ways_scenes.h"
 #include "tests/core/trace/rough_maps_scenes.h"
@@ -89,20 +89,14 @@ Share settled_share(const Tracer& tracer, const SettledTriangles& settled, const
   return share;
 }
 
-// What the tile pass asks for.
+// What the tile pass asks for, once lights stay.
 std::shared_ptr<SettledTriangles> asked_by(const TraceJob& job) {
-  std::vector<LightPlace> places;
-  for (const Light& light : job.scene.lights) {
-    const shared::LightParams params = light_params(light);
-    const bool far = params.kind == shared::kLightDirectional;
-    places.push_back({far ? -glm::vec3(params.direction) : glm::vec3(params.position), far});
-  }
-  const auto ways = job.tracer.clear_ways()->to(places);
-  SettledTriangles::Under under{.lights = {}, .mirrors = true, .light_cutoff = job.options.light_cutoff};
-  for (std::size_t i = 0; i < ways.size(); ++i)
-    under.lights.push_back({light_params(job.scene.lights[i]), static_cast<std::uint8_t>(i), ways[i]});
-  (void)job.tracer.settled()->of(under);
-  return job.tracer.settled()->of(under);  // lights that stay
+  TileOutputs out;
+  out.size = kSize;
+  out.mask_bits = mask_bits_of(job.scene);
+  out.depth = 3;
+  (void)TilePlan(job, out);
+  return TilePlan(job, out).settled;
 }
 
 // One light of a kind, or several of all kinds.
@@ -321,12 +315,13 @@ TEST(Settled, LightsThatMoveAreNotSearched) {
 }
 
 TEST(Settled, MayBeAskedFromManyThreads) {
-  Scene scene = jagged_ball(24);
+  Scene scene = ball(24);
   give_materials(scene);
-  add_lights(scene, 3);
+  add_lights(scene, 1);
   const Tracer tracer(scene.mesh);
   Workers workers(1);
-  const TraceJob job{scene, tracer, workers, view_params(camera_for_whole_scene(scene), kSize)};
+  TraceJob job{scene, tracer, workers, view_params(camera_for_whole_scene(scene), kSize)};
+  job.options.light_cutoff = light_cutoff_of(1);
   const std::shared_ptr<SettledTriangles> settled = asked_by(job);
   std::vector<std::thread> threads;
   std::atomic<int> by_part = 0;
@@ -343,6 +338,15 @@ TEST(Settled, MayBeAskedFromManyThreads) {
     });
   for (std::thread& thread : threads) thread.join();
   EXPECT_GT(by_part, 0);
+  const SettledTriangles::Under& under = settled->under();
+  int known = 0;
+  for (std::uint32_t id = 0; id < scene.mesh->triangles.size(); ++id) {
+    const SettledPoints of = settled->of(id);
+    if (of.state != SettledPoints::State::settled) continue;
+    ++known;
+    EXPECT_EQ(known_lights(*scene.mesh, {id, {}}, true, under.lights, under.light_cutoff), of.lights);
+  }
+  EXPECT_GT(known, 0);
 }
 
 }  // namespace
