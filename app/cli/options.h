@@ -35,6 +35,7 @@ struct DrawOptions {
   std::vector<Light> lights;    // added to the scene's
   std::string environment;      // file. Empty: none
   bool studio = false;          // light and a camera for scenes that bring none
+  bool turns = false;           // that camera turns around its target
   std::optional<PixelBox> crop;
   bool precise = false;  // draw the reference
   std::string progress = "auto";

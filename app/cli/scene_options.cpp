@@ -75,8 +75,9 @@ void set_projection(Projection projection, Camera& camera) {
 
 Camera camera_for(const DrawOptions& options, const Scene& scene) {
   Camera camera = !scene.cameras.empty() ? scene.cameras.front()
-                  : options.studio       ? studio_camera(scene, options.size)
-                                         : camera_for_whole_scene(scene);
+                  : !options.studio      ? camera_for_whole_scene(scene)
+                  : options.turns        ? studio_turntable(scene, options.size)
+                                         : studio_camera(scene, options.size);
   if (!options.camera.empty()) {
     const std::optional<int> number = parse_int(options.camera);
     const Camera* found = find_camera(scene, options.camera);

@@ -74,6 +74,7 @@ std::vector<NamedFile> input_files(const DrawOptions& draw, const AnimationOptio
 
 CameraFrames::CameraFrames(AnimationOptions options, const DrawOptions& draw, Scene scene)
     : options_(std::move(options)), draw_(draw), scene_(std::move(scene)) {
+  draw_.turns = options_.turntable > 0;
   const Camera camera = camera_for(draw_, scene_);
   path_ = options_.path.empty() ? CameraPath{{0, camera}} : read_camera_path(options_.path, camera);
   range_ = {path_.front().number, path_.back().number, 1};

@@ -56,7 +56,7 @@ class CameraFrames {
   [[noreturn]] void refuse_coincidence(int number) const;
 
   AnimationOptions options_;
-  const DrawOptions& draw_;
+  DrawOptions draw_;
   Scene scene_;
   CameraPath path_;
   FrameRange range_;

@@ -72,7 +72,7 @@ bool is_sky(const Mesh& mesh, const Surroundings& part, const Bounds& rest) {
   return inwards > 0.9 * all;
 }
 
-// The corners of the triangles that the picture is of.
+// The corners of the triangles that the picture is of; the origin if there are none.
 std::vector<glm::vec3> corners_of_object(const Scene& scene) {
   const Mesh& mesh = *scene.mesh;
   std::vector<Surroundings> parts = parts_of(scene);
@@ -96,6 +96,7 @@ std::vector<glm::vec3> corners_of_object(const Scene& scene) {
         seen[vertex] = true;
         corners.push_back(mesh.positions[vertex]);
       }
+  if (corners.empty()) corners.emplace_back(0.0f);
   return corners;
 }
 
@@ -118,14 +119,37 @@ Light key_light() {
   return key;
 }
 
-}  // namespace
-
-Camera studio_camera(const Scene& scene, glm::ivec2 size) {
-  std::vector<glm::vec3> corners = corners_of_object(scene);
-  if (corners.empty()) corners.emplace_back(0.0f);
+Bounds bounds_of(const std::vector<glm::vec3>& points) {
   Bounds bounds;
-  for (const glm::vec3& p : corners) bounds.add(p);
-  const glm::dvec3 center(bounds.center());
+  for (const glm::vec3& p : points) bounds.add(p);
+  return bounds;
+}
+
+// Points on the outline of what the corners sweep when they turn around the vertical axis through `center`.
+std::vector<glm::vec3> turned_around(const std::vector<glm::vec3>& corners, const glm::dvec3& center) {
+  constexpr int kUpwards = 32, kAround = 64;
+  std::vector<glm::dvec2> profile;  // how far from the axis and how high the corners are
+  for (const glm::vec3& p : corners) {
+    const glm::dvec3 q = glm::dvec3(p) - center;
+    profile.emplace_back(glm::length(glm::dvec2(q.x, q.z)), q.y);
+  }
+  std::vector<glm::vec3> outline;
+  for (int i = 0; i <= kUpwards; ++i) {
+    const double up = glm::pi<double>() * (1.0 * i / kUpwards - 0.5);
+    const glm::dvec2 direction(std::cos(up), std::sin(up));
+    const glm::dvec2 furthest =
+        *std::ranges::max_element(profile, {}, [&](const glm::dvec2& at) { return glm::dot(direction, at); });
+    for (int k = 0; k < kAround; ++k) {
+      const double turn = glm::two_pi<double>() * k / kAround;
+      const glm::dvec3 q(furthest.x * std::cos(turn), furthest.y, furthest.x * std::sin(turn));
+      outline.emplace_back(center + q);
+    }
+  }
+  return outline;
+}
+
+// A camera towards `center` whose picture of `size` pixels the corners fill.
+Camera fitted(const std::vector<glm::vec3>& corners, const glm::dvec3& center, glm::ivec2 size) {
   // At least what single precision distinguishes from the centre: eye and target have to differ. Scenes of
   // molecules are in units of 1e-10.
   const double least = std::max(1e-6 * glm::length(center), 1e-12);
@@ -169,6 +193,25 @@ Camera studio_camera(const Scene& scene, glm::ivec2 size) {
   const glm::dvec3 target = center + x * right + y * up;
   camera.target = glm::vec3(target);
   camera.eye = glm::vec3(target - distance * forward);
+  return camera;
+}
+
+}  // namespace
+
+Camera studio_camera(const Scene& scene, glm::ivec2 size) {
+  const std::vector<glm::vec3> corners = corners_of_object(scene);
+  return fitted(corners, glm::dvec3(bounds_of(corners).center()), size);
+}
+
+Camera studio_turntable(const Scene& scene, glm::ivec2 size) {
+  const std::vector<glm::vec3> corners = corners_of_object(scene);
+  const glm::dvec3 center(bounds_of(corners).center());
+  Camera camera = fitted(turned_around(corners, center), center, size);
+  // The target moves along the view to the axis, which the view meets.
+  const glm::dvec3 eye(camera.eye), towards = glm::dvec3(camera.target) - eye;
+  const glm::dvec2 across(towards.x, towards.z), to_axis(center.x - eye.x, center.z - eye.z);
+  const double way = glm::dot(to_axis, across) / glm::dot(across, across);
+  if (way > 0.0) camera.target = glm::vec3(center.x, eye.y + way * towards.y, center.z);
   return camera;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "pinocchio/conversion.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
@@ -25,6 +26,26 @@ Cover cover_of(const Scene& scene, const Camera& camera, std::size_t triangles) 
       cover.hi = glm::max(cover.hi, at);
     }
   return cover;
+}
+
+glm::vec3 turned(const glm::vec3& v, float angle) {
+  return {v.x * std::cos(angle) + v.z * std::sin(angle), v.y, v.z * std::cos(angle) - v.x * std::sin(angle)};
+}
+
+// All around, what the scene shows is in the picture, and sometimes reaches near its edge.
+void expect_framed_all_around(const Scene& scene, glm::ivec2 size) {
+  const Camera camera = studio_turntable(scene, size);
+  const float shorter = std::min(1.0f, 1.0f * size.x / size.y);  // in picture heights
+  float furthest = 0.0f;
+  for (int k = 0; k < 36; ++k) {
+    Camera at = camera;
+    at.eye = camera.target + turned(camera.eye - camera.target, glm::radians(10.0f * as_float(k)));
+    const Cover cover = cover_of(scene, at, scene.mesh->triangles.size());
+    const glm::vec2 most = glm::max(-cover.lo, cover.hi);
+    EXPECT_LE(std::max(most.x, most.y), 0.5f * shorter);
+    furthest = std::max({furthest, most.x, most.y});
+  }
+  EXPECT_GE(furthest, 0.35f * shorter);
 }
 
 void expect_framed(const Scene& scene, glm::ivec2 size, std::size_t triangles) {
@@ -51,6 +72,17 @@ TEST(StudioCamera, FillsTheShorterSideOfAnyPicture) {
     const Scene scene(std::move(mesh));
     for (const glm::ivec2& size : {glm::ivec2(800, 600), glm::ivec2(300, 900), glm::ivec2(64, 64)})
       expect_framed(scene, size, scene.mesh->triangles.size());
+  }
+}
+
+TEST(StudioTurntable, KeepsWhatTheFileShowsInThePicture) {
+  for (const glm::vec3& stretch :
+       {glm::vec3(1.0f), glm::vec3(5, 1, 1), glm::vec3(0.2f, 4, 0.2f), glm::vec3(1, 0.1f, 20)}) {
+    MeshData mesh = *random_soup(200, 0.5f, 7).mesh;
+    for (glm::vec3& p : mesh.positions) p = 100.0f * stretch * p + glm::vec3(1000, 0, -50);
+    const Scene scene(std::move(mesh));
+    for (const glm::ivec2& size : {glm::ivec2(800, 600), glm::ivec2(300, 900), glm::ivec2(64, 64)})
+      expect_framed_all_around(scene, size);
   }
 }
 
@@ -104,12 +136,12 @@ TEST(StudioCamera, APlateWithALittleOnItIsNoGround) {
 TEST(StudioCamera, DegenerateScenesGetOne) {
   MeshData point;
   add_triangle(point, {1000, 0, 0}, {1000, 0, 0}, {1000, 0, 0});
-  for (const Scene& scene : {Scene{}, Scene(point)}) {
-    const Camera camera = studio_camera(scene, {80, 60});
-    EXPECT_NE(camera.eye, camera.target);
-    EXPECT_TRUE(std::isfinite(glm::length(camera.eye)) &&
-                std::isfinite(glm::length(camera_axes(camera).right)));
-  }
+  for (const Scene& scene : {Scene{}, Scene(point)})
+    for (const Camera& camera : {studio_camera(scene, {80, 60}), studio_turntable(scene, {80, 60})}) {
+      EXPECT_NE(camera.eye, camera.target);
+      EXPECT_TRUE(std::isfinite(glm::length(camera.eye)) &&
+                  std::isfinite(glm::length(camera_axes(camera).right)));
+    }
 }
 
 TEST(StudioLight, IsKnownAgain) {
