@@ -36,6 +36,7 @@ inline constexpr float kSharpAlpha = 0.01f, kSharpGloss = 5000.0f;
 
 class ClearWays;
 class SettledTriangles;
+struct TileRays;
 struct EnvironmentLight;
 struct SampledPoint;
 
@@ -144,11 +145,11 @@ struct LaneSteps {
   void (*camera_rays)(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& rays);
   // Drops the rays whose triangle is kNoTriangle; the others stay in order.
   void (*keep_hits)(RayQueue& rays);
-  // Drops the rays that meet settled points, and writes the bits of the lights that reach these to `mask`, by
-  // pixel; the others stay in order. Returns how many lights reach them, point by point. `footprint`: of
-  // the camera's rays; null: a RayModel makes them, so that points with rough textures stay.
-  std::size_t (*drop_settled)(SettledTriangles& settled, const SceneArrays& scene, const Footprint* footprint,
-                              RayQueue& rays, std::uint8_t* mask);
+  // Of a tile's pixels that see settled points: writes the bits of the lights that reach these to `mask`,
+  // which is 0 before, and kNoTriangle to `ids`. Both are row by row. Returns how many lights reach the
+  // points, point by point.
+  std::size_t (*find_settled)(SettledTriangles& settled, const SceneArrays& scene, const TileRays& rays,
+                              std::uint32_t* ids, std::uint8_t* mask);
   // Writes 1 for rays that met a point where alpha lets them pass as if nothing were there, else 0.
   void (*find_holes)(const Bounce& bounce, const RayQueue& rays, std::uint32_t* holes);
   // The same for the shadow rays of a packet, within the walk.

@@ -328,7 +328,7 @@ void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue&
 
 }  // namespace
 
-const LaneSteps kSteps{camera_rays, keep_hits,   drop_settled,   find_holes,      lanes_in_holes,  go_behind,
+const LaneSteps kSteps{camera_rays, keep_hits,   find_settled,   find_holes,      lanes_in_holes,  go_behind,
                        cross_glass, bounce_rays, visible_points, add_environment, paint_background};
 
 }  // namespace pinocchio::PINOCCHIO_LANES

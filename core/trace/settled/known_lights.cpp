@@ -24,18 +24,18 @@ constexpr double kLess = 1.0 - 1e-3;
 // A part of a triangle, its normals on the viewer's side.
 struct Facet {
   std::array<glm::dvec3, 3> corners;
-  glm::dvec3 normal{0.0};                   // unit
-  std::array<glm::dvec3, 3> at_vertices{};  // the whole triangle's
-  double most = 0.0;                        // the largest coordinate
+  glm::dvec3 normal{0.0};               // unit
+  std::array<glm::dvec3, 3> normals{};  // interpolated at the corners
+  double most = 0.0;                    // the largest coordinate
 
   // None: the triangle is too thin, too small or too large.
   static std::optional<Facet> of(const Mesh& mesh, const PartOfMesh& part, bool from_front) {
     const glm::uvec3& corners = mesh.triangles[part.triangle];
-    std::array<glm::dvec3, 3> p;
+    std::array<glm::dvec3, 3> p, normals;
     Facet facet;
     for (int i = 0; i < 3; ++i) {
       p[as_size(i)] = glm::dvec3(mesh.positions[corners[i]]);
-      facet.at_vertices[as_size(i)] = glm::dvec3(mesh.normals[corners[i]]);
+      normals[as_size(i)] = glm::dvec3(mesh.normals[corners[i]]);
       facet.most = std::max(facet.most, largest_component(glm::abs(p[as_size(i)])));
     }
     const glm::dvec3 ab = p[1] - p[0], ac = p[2] - p[0], n = glm::cross(ab, ac);
@@ -44,22 +44,24 @@ struct Facet {
       return {};
     facet.normal = (from_front ? 1.0 : -1.0) / length * n;
     const TrianglePart weights = part.number ? part_of_inside(*part.number) : whole_inside();
-    for (std::size_t i = 0; i < 3; ++i)
-      facet.corners[i] = weights[i].x * p[0] + weights[i].y * p[1] + weights[i].z * p[2];
     // Interpolated normals are turned to the viewer with the triangle's own, which stands for them where they
     // are zero.
     const bool turned = std::ranges::any_of(
-        facet.at_vertices, [&](const glm::dvec3& vertex) { return glm::dot(vertex, facet.normal) < 0.0; });
-    for (glm::dvec3& vertex : facet.at_vertices)
-      vertex = vertex == glm::dvec3(0.0) ? facet.normal : turned ? -vertex : vertex;
+        normals, [&](const glm::dvec3& vertex) { return glm::dot(vertex, facet.normal) < 0.0; });
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::dvec3& at = weights[i];
+      facet.corners[i] = at.x * p[0] + at.y * p[1] + at.z * p[2];
+      const glm::dvec3 mixed = at.x * normals[0] + at.y * normals[1] + at.z * normals[2];
+      facet.normals[i] = mixed == glm::dvec3(0.0) ? facet.normal : turned ? -mixed : mixed;
+    }
     return facet;
   }
 
-  // True if the vertices' normals, and so all between them, are on the triangle's side that `normal` is on.
+  // True if the normals at the corners, and so all between them, are on the triangle's side that `normal` is
+  // on.
   [[nodiscard]] bool is_smooth() const {
-    return std::ranges::all_of(at_vertices, [&](const glm::dvec3& n) {
-      return kCertainCosine * glm::length(n) < glm::dot(normal, n);
-    });
+    return std::ranges::all_of(
+        normals, [&](const glm::dvec3& n) { return kCertainCosine * glm::length(n) < glm::dot(normal, n); });
   }
 };
 
@@ -83,8 +85,8 @@ class LightAtFacet {
       const glm::dvec3 unit = way / length;
       distance_.add(far ? 1.0 : length);
       cosine_.add(glm::dot(facet.normal, unit));
-      for (const glm::dvec3& n : facet.at_vertices) {
-        of_vertices_.add(glm::dot(n, unit) / glm::length(n));
+      for (const glm::dvec3& n : facet.normals) {
+        of_normals_.add(glm::dot(n, unit) / glm::length(n));
         scaled_.add(glm::dot(n, way) / glm::length(n));
       }
       in_cone_.add(-glm::dot(unit, glm::dvec3(light_.direction)));
@@ -97,9 +99,9 @@ class LightAtFacet {
 
   [[nodiscard]] bool is_in_front() const { return is_certain_ && kCertainCosine < cosine_.lo; }
   [[nodiscard]] bool is_behind() const { return is_certain_ && cosine_.hi < -kCertainCosine; }
-  // True if all vertices' normals, and so all between them, have the light in front; behind.
-  [[nodiscard]] bool is_in_front_of_normals() const { return kCertainCosine < of_vertices_.lo; }
-  [[nodiscard]] bool is_behind_normals() const { return of_vertices_.hi < -kCertainCosine; }
+  // True if the normals at all corners, and so all between them, have the light in front; behind.
+  [[nodiscard]] bool is_in_front_of_normals() const { return kCertainCosine < of_normals_.lo; }
+  [[nodiscard]] bool is_behind_normals() const { return of_normals_.hi < -kCertainCosine; }
 
   // The least share of the light's radiance that a point gets.
   [[nodiscard]] double least_share() const {
@@ -124,13 +126,13 @@ class LightAtFacet {
 
   // A lower bound of the cosine that shading uses, where is_in_front_of_normals().
   [[nodiscard]] double least_n_dot_l() const {
-    // Interpolated normals are divided by their length, which is at most the mean of the vertices'.
+    // Interpolated normals are divided by their length, which is at most the mean of the corners'.
     return scaled_.lo / distance_.hi;
   }
 
  private:
   const shared::LightParams& light_;
-  Range distance_, cosine_, of_vertices_, scaled_, in_cone_;
+  Range distance_, cosine_, of_normals_, scaled_, in_cone_;
   bool is_certain_ = true;
 };
 

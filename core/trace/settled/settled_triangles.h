@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cstddef>
@@ -28,6 +29,13 @@ struct SettledPoints {
 
   // Such footprints, or shorter ones, find nothing that mirrors, transmits or blends (rough_within.h).
   [[nodiscard]] float rough_within() const { return std::bit_cast<float>(more); }
+
+  // As two words, for lanes: the first has `state`, `from_front` and `lights`, each from its bit on.
+  static constexpr int kFrontBit = 8, kLightsBit = 16;
+  [[nodiscard]] std::array<std::uint32_t, 2> words() const {
+    static_assert(std::endian::native == std::endian::little);
+    return std::bit_cast<std::array<std::uint32_t, 2>>(*this);
+  }
 };
 
 // Which triangles are settled under some lights, found as rays ask for it. Their points need no bounce step

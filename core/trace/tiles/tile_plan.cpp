@@ -241,7 +241,8 @@ bool TilePlan::finds_mask_alone() const {
 void TilePlan::find_settled() {
   SettledUnderLights* const known = job.tracer.settled();
   if (!known || !job.options.clear_ways || out.on_rays || !finds_mask_alone() || catcher ||
-      !visible.cuts_light() || job.options.terminator == Terminator::displaced || visible_lights.size() > 1)
+      !visible.cuts_light() || model || job.options.terminator == Terminator::displaced ||
+      visible_lights.size() > 1)
     return;
   SettledTriangles::Under under{
       .lights = {}, .mirrors = out.depth > 0, .light_cutoff = job.options.light_cutoff};

@@ -7,6 +7,7 @@
 #include "core/base/clock.h"
 #include "core/shade/surface.h"
 #include "core/simd/four.h"
+#include "core/trace/settled/triangle_in_tile.h"
 #include "core/trace/view/tile_frustum.h"
 #include "core/trace/view/view_params.h"
 #include "pinocchio/conversion.h"
@@ -53,13 +54,24 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile, const K
   if (plan.out.sampled) begin_light();
   TileTimes times;
   Lap lap;
+  if (!known_.sees_nothing) mask_.assign(as_size(plan.visible_lights.back().byte + 1) * kPixels, 0);
+  sees_something_ = !known_.sees_nothing;
+  if (plan.out.seen && sees_something_) {
+    fetch_ids();
+    times.primary = lap.restart();
+    find_settled();
+    times.shadow = lap.restart();
+  }
   start();
   find_visible();
-  times.primary = lap.restart();
-  sees_something_ = seen_.size > 0;
-  if (sees_something_) {
+  times.primary += lap.restart();
+  if (!plan.out.seen) {
+    sees_something_ = seen_.size > 0;
+    drop_settled();
+  }
+  if (seen_.size > 0) {
     light_visible();
-    times.shadow = lap.restart();
+    times.shadow += lap.restart();
     follow();
     times.reflection = lap.restart();
   }
@@ -102,23 +114,16 @@ void TileTracer::start() {
   straight_ground_.make_room(0);
   const bool given = plan_->out.seen != nullptr, whole = tile_.size() == glm::ivec2(TileGrid::kTileSize);
   if (known_.sees_nothing) return;
-  if (!whole) ids_.fill(kNoTriangle);
-  if (given) fetch_ids();
   if (whole && !given) {
     std::copy(z_curve().begin(), z_curve().end(), seen_.pixel);
     seen_.size = kPixels;
   } else {
-    if (!given)
+    if (!given) {
+      ids_.fill(kNoTriangle);
       for (int y = 0; y < tile_.size().y; ++y)
         std::fill_n(&ids_[as_size(y) << kTileBits], tile_.size().x, 0u);
-    std::size_t count = 0;
-    for (const std::uint32_t pixel : z_curve()) {
-      const std::uint32_t triangle = ids_[pixel];
-      seen_.pixel[count] = pixel;
-      seen_.triangle[count] = triangle;
-      count += triangle != kNoTriangle ? 1 : 0;
     }
-    seen_.size = count;
+    list_pixels();
   }
   if (!plan_->model) return plan_->job.tracer.steps().camera_rays(plan_->view, tile_.lo, seen_);
   plan_->model->fill(tile_.lo, kTileBits, seen_);
@@ -128,10 +133,32 @@ void TileTracer::start() {
         plan_->model->footprint((tile_.lo + tile_.hi) / 2, plan_->job.options.texture_footprint);
 }
 
+// The pixels that have an id, along the curve.
+void TileTracer::list_pixels() {
+  constexpr std::size_t kSquare = 4;  // pixels along the sides of squares that are left out as a whole
+  const std::span curve(z_curve());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kPixels; i += kSquare * kSquare) {
+    const std::span square = curve.subspan(i, kSquare * kSquare);
+    const auto row = [&](std::size_t y) {
+      return *reinterpret_cast<const FourInts*>(&ids_[square[0] + (y << kTileBits)]);
+    };
+    if (!any(~(row(0) & row(1) & row(2) & row(3)))) continue;
+    for (const std::uint32_t pixel : square) {
+      const std::uint32_t triangle = ids_[pixel];
+      seen_.pixel[count] = pixel;
+      seen_.triangle[count] = triangle;
+      count += triangle != kNoTriangle ? 1 : 0;
+    }
+  }
+  seen_.size = count;
+}
+
 // Copies the tile's given ids.
 void TileTracer::fetch_ids() {
   const Image<std::uint32_t>& seen = *plan_->out.seen;
   const auto scale = as_size(plan_->out.scale), width = as_size(tile_.size().x);
+  if (tile_.size() != glm::ivec2(TileGrid::kTileSize)) ids_.fill(kNoTriangle);
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
     const std::uint32_t* const from = &seen.at(tile_.lo.x * plan_->out.scale, y * plan_->out.scale);
     std::uint32_t* const to = &ids_[row_of(y)];
@@ -163,6 +190,24 @@ void TileTracer::find_visible() {
       std::memcpy(&out.ids->at(tile_.lo.x, y), &ids_[row_of(y)],
                   as_size(tile_.size().x) * sizeof(std::uint32_t));
   }
+  plan_->job.tracer.steps().keep_hits(seen_);
+}
+
+// Sets the mask at the visible points of which all is known, and takes their ids out of ids_.
+void TileTracer::find_settled() {
+  if (!plan_->settled) return;
+  const TileRays rays(plan_->view, tile_.lo, plan_->seen_footprint);
+  counts_.shadow += plan_->job.tracer.steps().find_settled(*plan_->settled, plan_->visible.scene, rays,
+                                                           ids_.data(), mask_.data());
+}
+
+// Does that where the ids were found, and drops the rays of these points.
+void TileTracer::drop_settled() {
+  if (!plan_->settled || seen_.size == 0) return;
+  ids_.fill(kNoTriangle);
+  for (std::size_t i = 0; i < seen_.size; ++i) ids_[seen_.pixel[i]] = seen_.triangle[i];
+  find_settled();
+  for (std::size_t i = 0; i < seen_.size; ++i) seen_.triangle[i] = ids_[seen_.pixel[i]];
   plan_->job.tracer.steps().keep_hits(seen_);
 }
 
@@ -228,21 +273,11 @@ void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Gener
   plan_->job.tracer.steps().bounce(step, rays);
 }
 
-// Sets the mask at the visible points of which all is known, and drops their rays.
-void TileTracer::drop_settled() {
-  if (!plan_->settled) return;
-  const Footprint* const footprint = plan_->model ? nullptr : &plan_->seen_footprint;
-  counts_.shadow += plan_->job.tracer.steps().drop_settled(*plan_->settled, plan_->visible.scene, footprint,
-                                                           seen_, mask_.data());
-}
-
 void TileTracer::light_visible() {
-  mask_.assign(as_size(plan_->visible_lights.back().byte + 1) * kPixels, 0);
   if (plan_->visible.adds_light) {
     direct_.fill(glm::vec4(0.0f));
     for (std::size_t i = 0; i < seen_.size; ++i) direct_[seen_.pixel[i]].a = 1.0f;
   }
-  drop_settled();
   next_diffuse_.make_room(0, extra_columns());
   make_room(seen_.size, rays_);
   Bounce step = plan_->visible;

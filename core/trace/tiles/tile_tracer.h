@@ -50,7 +50,9 @@ class TileTracer {
   void fetch_ids();
   void find_hits(RayQueue& rays, int generation, bool of_camera = false);
   void find_visible();
+  void find_settled();
   void drop_settled();
+  void list_pixels();
   void light_visible();
   void follow();
   [[nodiscard]] int generation_of(int bounce_count, int step_count) const;
@@ -113,11 +115,12 @@ class TileTracer {
   // pixel: the light of the plane (RGB) and what shadows take from it (A), then the lost share (A).
   RayQueue ground_, straight_ground_;
   alignas(16) Radiance<kPixels> ground_light_;
-  bool sees_something_ = false;             // some pixel of the tile does
-  Footprint seen_footprint_;                // of the tile, where a RayModel makes the rays
-  bool reflects_ = false;                   // reflected_ may hold light
-  std::vector<std::uint8_t> mask_;          // kPixels for each byte of the mask
-  std::array<std::uint32_t, kPixels> ids_;  // of the tile's pixels, row by row: given or found
+  bool sees_something_ = false;     // some pixel of the tile does
+  Footprint seen_footprint_;        // of the tile, where a RayModel makes the rays
+  bool reflects_ = false;           // reflected_ may hold light
+  std::vector<std::uint8_t> mask_;  // kPixels for each byte of the mask
+  // Of the tile's pixels, row by row: given or found; aligned for packets.
+  alignas(64) std::array<std::uint32_t, kPixels> ids_;
 };
 
 }  // namespace pinocchio

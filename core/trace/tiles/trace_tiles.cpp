@@ -34,7 +34,10 @@ TileResult trace_tiles(const TraceJob& job, const TileOutputs& outputs) {
     black->assign(grid.count(), kept_reflection ? 0 : 1);
   }
   std::optional<SeenTiles> seen;
-  if (outputs.seen) seen.emplace(*outputs.seen, outputs.scale, grid);
+  if (outputs.seen)
+    seen.emplace(
+        *outputs.seen, outputs.scale, grid,
+        plan.model ? all_tiles(grid) : tiles_that_may_see(job.tracer.trees().bounds, plan.view, grid));
   TileResult result;
   std::mutex mutex;
   job.workers.for_each(grid.count(), [&](std::size_t i) {
