@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <functional>
@@ -13,9 +14,11 @@
 #include "bench/one_ray/map_lookup.h"
 #include "core/trace/settled/rough_within.h"
 #include "core/trace/settled/settled_triangles.h"
+#include "core/trace/settled/triangle_in_tile.h"
 #include "core/trace/tiles/tile_plan.h"
 #include "core/trace/view/view_params.h"
 #include "tests/core/trace/clear_ways_scenes.h"
+#include "tests/core/trace/plane_hit.h"
 #include "tests/core/trace/rough_maps_scenes.h"
 #include "tests/support/drawn_tiles.h"
 #include "tests/support/same_bits.h"
@@ -172,17 +175,16 @@ TEST(Settled, OurOwnScenesKeepTheirBits) {
 }
 
 // The same floor, of many triangles.
-void cut_into_pieces(Scene& scene) {
-  constexpr std::uint32_t kPieces = 12;
+void cut_into_pieces(Scene& scene, std::uint32_t pieces) {
   MeshEdit mesh(scene);
   const glm::vec3 a = mesh->positions[0], ab = mesh->positions[1] - a, ac = mesh->positions[2] - a;
   const glm::vec2 uv = mesh->texcoords[0], uv_b = mesh->texcoords[1] - uv, uv_c = mesh->texcoords[2] - uv;
   const std::uint32_t material = mesh->triangle_materials[0];
-  for (std::uint32_t y = 0; y < kPieces; ++y)
-    for (std::uint32_t x = 0; x + y < kPieces; ++x) {
+  for (std::uint32_t y = 0; y < pieces; ++y)
+    for (std::uint32_t x = 0; x + y < pieces; ++x) {
       const auto first = static_cast<std::uint32_t>(mesh->positions.size());
       for (const glm::uvec2 corner : {glm::uvec2(0, 0), {1, 0}, {0, 1}}) {
-        const glm::vec2 at = glm::vec2(corner + glm::uvec2(x, y)) / static_cast<float>(kPieces);
+        const glm::vec2 at = glm::vec2(corner + glm::uvec2(x, y)) / static_cast<float>(pieces);
         mesh->positions.push_back(a + at.x * ab + at.y * ac);
         mesh->normals.push_back(mesh->normals[0]);
         mesh->texcoords.push_back(uv + at.x * uv_b + at.y * uv_c);
@@ -205,7 +207,7 @@ TEST(Settled, SmoothSpotsAreNotMissed) {
       for (const float density : {0.05f, 0.2f, 1.0f})
         for (const bool small : {false, true}) {
           Scene scene = spotted_floor(size, wrap, density, density > 0.1f ? 0.3f : 20000.3f, random, 5);
-          if (small) cut_into_pieces(scene);
+          if (small) cut_into_pieces(scene, 12);
           const Tracer tracer(scene.mesh);
           std::vector<Camera> cameras(4, scene.cameras.front());
           cameras[0].eye *= 0.3f;
@@ -218,6 +220,90 @@ TEST(Settled, SmoothSpotsAreNotMissed) {
           share += expect_same_when_known(job, cameras, 8);
         }
   EXPECT_GT(share.settled, share.all / 10);
+}
+
+// Of one large triangle whose normals turn far away from its own: which parts a light reaches depends on
+// them.
+TEST(Settled, PartsHaveTheirOwnNormals) {
+  Random random(21);
+  Workers workers(2);
+  std::size_t lit = 0, dark = 0;
+  for (int i = 0; i < 60; ++i) {
+    Scene scene = built([](MeshBuilder& builder) {
+      builder.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
+    });
+    Light light = point_light(3.0f * glm::normalize(random_point(random, 1.0f) * glm::vec3(1, 0.4f, 1)));
+    if (i % 2 == 0) {
+      light.kind = Light::Kind::directional;
+      light.direction = -glm::normalize(light.position);
+    }
+    scene.lights = {light};
+    {
+      MeshEdit mesh(scene);
+      for (glm::vec3& n : mesh->normals)
+        n = glm::normalize(glm::vec3(0, 1, 0) + glm::vec3(3, 0, 3) * random_point(random, 1.0f));
+      if (i % 3 == 0) mesh->materials[0].diffuse = glm::vec3(light_cutoff_of(1));
+    }
+    const Camera above{"above", {0.1f, 2.0f, 0.2f}, {0.1f, 0.0f, 0.0f}, {0, 0, 1}, 60.0f};
+    const Tracer tracer(scene.mesh);
+    TraceJob job{scene, tracer, workers, {}};
+    job.options.light_cutoff = light_cutoff_of(1);
+    (void)expect_same_when_known(job, {above}, 30);
+    const std::shared_ptr<SettledTriangles> settled = asked_by(job);
+    for (std::uint32_t id = 0; id < 2; ++id)
+      for (std::uint32_t part = 0; part < kParts && settled->of(id).state == SettledPoints::State::by_part;
+           ++part)
+        if (const SettledPoints of = settled->of_part(settled->of(id), part);
+            of.state == SettledPoints::State::settled)
+          ++(of.lights != 0 ? lit : dark);
+  }
+  EXPECT_GT(lit, 300u);
+  EXPECT_GT(dark, 300u);
+}
+
+// Small triangles, which are rough as a whole from near, and are then seen from far.
+TEST(Settled, NoFootprintIsLongerThanWhatIsKnown) {
+  Random random(12);
+  Workers workers(2);
+  Scene scene = spotted_floor({64, 64}, Wrap::repeat, 1.0f, 0.3f, random, 4);
+  cut_into_pieces(scene, 60);
+  const Mesh& mesh = *scene.mesh;
+  const Tracer tracer(scene.mesh);
+  TraceJob job{scene, tracer, workers, {}};
+  job.options.light_cutoff = light_cutoff_of(2);
+  const LaneMapsOf maps(mesh);
+  int near = 0, far = 0;
+  for (const float height : {0.5f, 1.0f, 1.5f, 2.0f, 3.0f, 4.0f, 10.0f}) {
+    const Camera camera{"above", {2.5f, height, 2.5f}, {2.5f, 0.0f, 2.4f}, {0, 0, 1}, 60.0f};
+    job.view = view_params(camera, kSize);
+    Image<std::uint32_t> seen(kSize);
+    trace_visibility(job, seen);
+    for (int frame = 0; frame < 40 && height < 1.0f; ++frame) (void)draw(job, seen);
+    constexpr glm::ivec2 kTile(64, 32);
+    alignas(64) std::array<std::uint32_t, 1024> ids;
+    std::array<std::uint8_t, 1024> mask{};
+    TileGrid::for_each_pixel({kTile, kTile + 32}, [&](int x, int y) {
+      ids[as_size((y - kTile.y) * 32 + x - kTile.x)] = seen.at(x, y);
+    });
+    const std::shared_ptr<SettledTriangles> settled = asked_by(job);
+    (void)tracer.steps().find_settled(*settled, SceneArrays::of(mesh, maps),
+                                      TileRays(job.view, kTile, Footprint::of_camera(job.view)), ids.data(),
+                                      mask.data());
+    TileGrid::for_each_pixel({kTile, kTile + 32}, [&](int x, int y) {
+      const std::uint32_t id = seen.at(x, y);
+      if (id == kNoTriangle || settled->of(id).state != SettledPoints::State::settled) return;
+      const glm::uvec3& corners = mesh.triangles[id];
+      const PlaneHit hit = plane_hit_of(
+          {mesh.positions[corners.x], mesh.positions[corners.y], mesh.positions[corners.z]}, job.view, x, y);
+      const bool found = ids[as_size((y - kTile.y) * 32 + x - kTile.x)] == kNoTriangle;
+      const bool longer = double{settled->of(id).rough_within()} < hit.longest;
+      EXPECT_FALSE(found && longer) << id << " " << hit.longest;
+      near += found ? 1 : 0;
+      far += longer ? 1 : 0;
+    });
+  }
+  EXPECT_GT(near, 200);
+  EXPECT_GT(far, 200);
 }
 
 TEST(Settled, LightsThatChangeAreAskedAnew) {
