@@ -64,6 +64,8 @@ inline unsigned not_less(Float a, Float b, unsigned of) {
     return of & ~(a < b).bits();
 }
 
+using UnalignedInt [[gnu::aligned(4), gnu::may_alias]] = NativeInt;
+
 // Triangle ids, below 2^30 (kNoTriangle compares as -1), or bits.
 struct Int {
   NativeInt v;
@@ -75,6 +77,7 @@ struct Int {
     return result;
   }
   static Int load(const std::uint32_t* p) { return of(*reinterpret_cast<const NativeInt*>(p)); }
+  static Int load_unaligned(const std::uint32_t* p) { return of(*reinterpret_cast<const UnalignedInt*>(p)); }
   void store(std::uint32_t* p) const { *reinterpret_cast<NativeInt*>(p) = v; }
 
   friend Int operator+(Int a, Int b) { return of(a.v + b.v); }
@@ -139,8 +142,7 @@ inline void load_columns(const float* const (&rows)[kWidth], Float (&columns)[4]
 
 // Stores the lanes of m side by side, in their order; p has room for kWidth.
 inline void store_packed(std::uint32_t* p, Int a, Mask m) {
-  using Unaligned [[gnu::aligned(4), gnu::may_alias]] = NativeInt;
-  *reinterpret_cast<Unaligned*>(p) = Native::packed(a.v, m.m);
+  *reinterpret_cast<UnalignedInt*>(p) = Native::packed(a.v, m.m);
 }
 inline void store_packed(float* p, Float a, Mask m) {
   store_packed(reinterpret_cast<std::uint32_t*>(p), bits_of(a), m);

@@ -36,7 +36,7 @@ using TrianglePart = std::array<glm::dvec3, 3>;
 // The inside is divided along lines on which a weight is the same, kPartsAlong to an edge: each rhombus of
 // that grid holds two parts.
 inline constexpr std::uint32_t kPartsAlong = 8, kParts = 2 * kPartsAlong * kPartsAlong;
-// Part `number` as lanes/triangle_part.h counts them, and so much around it that rounded weights do not lead
+// Part `number` as lanes/in_triangle.h counts them, and so much around it that rounded weights do not lead
 // out of it.
 [[nodiscard]] TrianglePart part_of_inside(std::uint32_t number);
 

@@ -1,4 +1,4 @@
-// Part of walk/kernel.h's files: what needs no step, as a ray met nothing, or all is known of the point.
+// Part of walk/kernel.h's files: pixels that need no step, as all is known of the points that they see.
 #pragma once
 
 #include <algorithm>
@@ -7,130 +7,139 @@
 #include <cstring>
 #include <numeric>
 
+#include "core/trace/lanes/in_triangle.h"
 #include "core/trace/lanes/lane_steps.h"
-#include "core/trace/lanes/triangle_part.h"
 #include "core/trace/settled/settled_triangles.h"
-#include "core/trace/settled/triangle_in_tile.h"
 #include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-void keep_hits(RayQueue& rays) {
-  const Int none(kNoTriangle);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < rays.size; i += kWidth) {
-    const Mask in_queue = lanes_from(i, rays.size), hit = in_queue & ~(Int::load(rays.triangle + i) == none);
-    if (hit.bits() != 0 && (kept < i || hit.bits() != in_queue.bits())) {
-      for (float* const* columns : {rays.origin, rays.direction, rays.light})
-        for (int axis = 0; axis < 3; ++axis)
-          store_packed(columns[axis] + kept, Float::load(columns[axis] + i), hit);
-      store_packed(rays.pixel + kept, Int::load(rays.pixel + i), hit);
-      if (rays.width) store_packed(rays.width + kept, Float::load(rays.width + i), hit);
-      if (rays.density) store_packed(rays.density + kept, Float::load(rays.density + i), hit);
-      if (rays.way) store_packed(rays.way + kept, Float::load(rays.way + i), hit);
-      if (rays.medium) store_packed(rays.medium + kept, Int::load(rays.medium + i), hit);
-      store_packed(rays.triangle + kept, Int::load(rays.triangle + i), hit);
-    }
-    kept += as_size(__builtin_popcount(hit.bits()));
-  }
-  rays.size = kept;
-}
-
 // The triangles that the pixels of a tile see, as far as they may be settled.
 class SettledInTile {
  public:
-  SettledInTile(SettledTriangles& settled, const SceneArrays& scene, const TileRays& rays)
-      : settled_(settled), scene_(scene), rays_(rays) {}
+  SettledInTile(SettledTriangles& settled, const SceneArrays& scene) : settled_(settled), scene_(scene) {}
 
-  // The lanes of which all is known. `same` see this triangle, in the pixels (x, y). In the lanes that are
-  // returned, sets `lights` to the bits of those that reach the point.
-  Mask find(std::uint32_t id, Mask same, Float x, float y, Int& lights) {
-    const Seen& seen = seen_[id % seen_.size()].id == id ? seen_[id % seen_.size()] : look_up(id);
-    if (seen.known.state == SettledPoints::State::never) return Mask::from_bits(0);
-    const TriangleInTile& at = seen.triangle;
-    const Float above[3] = {value(at.above[0], x, y), value(at.above[1], x, y), value(at.above[2], x, y)};
-    const Float total = value(at.total, x, y);
-    const Mask inside =
-        same & (Float(0.0f) < min(min(above[0], above[1]), above[2])) & (Float(seen.least_total) < total);
+  // The number of a triangle here; kNever: it is not settled.
+  static constexpr std::uint16_t kNever = 0xffff;
+  [[nodiscard]] std::uint16_t number_of(std::uint32_t id) {
+    Last& last = last_[id % last_.size()];
+    if (last.id != id) last = {id, add(id)};
+    return last.number;
+  }
+
+  // Where rays meet those that have numbers.
+  void find_triangles(const TileRays& rays) {
+    for (std::size_t first = 0; first < count_; first += kWidth) {
+      const std::size_t lanes = std::min(std::size_t{kWidth}, count_ - first);
+      TrianglesInTile& group = groups_[first / kWidth];
+      for (std::size_t lane = lanes; lane < kWidth; ++lane)
+        group.set_corners(lane, glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f));
+      group.find(rays);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const SettledPoints& known = known_[first + lane];
+        float& least = group.least_total[lane];
+        if (known.state == SettledPoints::State::by_part)
+          least = std::max(least, group.least_for_parts[lane]);
+        if (known.state != SettledPoints::State::settled) continue;
+        if (known.from_front != (group.from_front >> lane & 1u)) least = kInfinity;
+        if (known.rough_within() < kInfinity)
+          least = std::max(least, std::sqrt(group.footprint[lane] / known.rough_within()));
+      }
+    }
+  }
+
+  // The lanes of which all is known. `same` see the triangle of that number, in the pixels (x, y). In the
+  // lanes that are returned, sets `lights` to the bits of those that reach the point.
+  Mask find(std::uint16_t number, Mask same, Float x, float y, Int& lights) {
+    const TrianglesInTile& group = groups_[number / kWidth];
+    const std::size_t lane = number % kWidth;
+    const SettledPoints& known = known_[number];
+    const bool from_front = (group.from_front >> lane & 1u) != 0;
+    if (known.state == SettledPoints::State::asking) {
+      settled_.ask(id_[number], count(same), std::min(as_uint32(kWidth), kManyInARow), from_front);
+      return Mask::from_bits(0);
+    }
+    const Float above[3] = {group.above[0].value(lane, x, y), group.above[1].value(lane, x, y),
+                            group.above[2].value(lane, x, y)};
+    const Float total = group.total.value(lane, x, y);
+    const Mask inside = same & (Float(0.0f) < min(min(above[0], above[1]), above[2])) &
+                        (Float(group.least_total[lane]) < total);
     if (inside.bits() == 0) return inside;
-    if (seen.known.state == SettledPoints::State::settled) {
-      lights = select(inside, Int(std::uint32_t{seen.known.lights}), lights);
+    if (known.state == SettledPoints::State::settled) {
+      lights = select(inside, Int(std::uint32_t{known.lights}), lights);
       return inside;
     }
-    if (seen.known.state == SettledPoints::State::by_part)
-      return find_parts(seen, inside, part_at(above[1] / total, above[2] / total), total, lights);
-    settled_.ask(id, count(inside), std::min(as_uint32(kWidth), kManyInARow), at.from_front);
-    return Mask::from_bits(0);
+    const Float longest = Float(group.footprint[lane]) / (total * total);
+    return find_parts(number, from_front, inside, part_at(above[1] / total, above[2] / total), longest,
+                      lights);
   }
 
  private:
   // Triangles of which a row of a packet sees as many pixels are large enough for parts.
   static constexpr unsigned kManyInARow = 8;
-
-  struct Seen {
-    std::uint32_t id = kNoTriangle;
-    float least_total = 0.0f;
-    SettledPoints known;
-    TriangleInTile triangle;
-  };
+  static constexpr std::size_t kMost = std::size_t{1} << (2 * kTileBits);  // one for each pixel
 
   static unsigned count(Mask lanes) { return as_uint32(__builtin_popcount(lanes.bits())); }
-  static Float value(const LinearInPixel& number, Float x, float y) {
-    return Float(number.at + number.per_y * y) + Float(number.per_x) * x;
-  }
 
-  const Seen& look_up(std::uint32_t id) {
-    Seen& seen = seen_[id % seen_.size()];
-    seen.id = id;
-    seen.known = settled_.of(id);
-    if (seen.known.state == SettledPoints::State::never) return seen;
+  std::uint16_t add(std::uint32_t id) {
+    const SettledPoints known = settled_.of(id);
+    if (known.state == SettledPoints::State::never) return kNever;
+    id_[count_] = id;
+    known_[count_] = known;
     const glm::uvec3& corners = scene_.triangles[id];
-    seen.triangle = TriangleInTile(
-        rays_, {scene_.positions[corners.x], scene_.positions[corners.y], scene_.positions[corners.z]});
-    seen.least_total = seen.triangle.least_total;
-    if (seen.known.state == SettledPoints::State::by_part)
-      seen.least_total = std::max(seen.least_total, seen.triangle.least_for_parts);
-    if (seen.known.state != SettledPoints::State::settled) return seen;
-    if (seen.known.from_front != seen.triangle.from_front) seen.known.state = SettledPoints::State::never;
-    if (seen.known.rough_within() < kInfinity)
-      seen.least_total =
-          std::max(seen.least_total, std::sqrt(seen.triangle.footprint / seen.known.rough_within()));
-    return seen;
+    groups_[count_ / kWidth].set_corners(count_ % kWidth, scene_.positions[corners.x],
+                                         scene_.positions[corners.y], scene_.positions[corners.z]);
+    return static_cast<std::uint16_t>(count_++);
   }
 
-  Mask find_parts(const Seen& seen, Mask inside, Int parts, Float total, Int& lights) {
+  Mask find_parts(std::uint16_t number, bool from_front, Mask inside, Int parts, Float longest, Int& lights) {
     alignas(64) std::uint32_t part[kWidth], first[kWidth] = {}, more[kWidth] = {};
     parts.store(part);
     for (unsigned waiting = inside.bits(); waiting != 0; waiting &= waiting - 1) {
       const int lane = __builtin_ctz(waiting);
-      const auto words = settled_.of_part(seen.known, part[lane]).words();
+      const auto words = settled_.of_part(known_[number], part[lane]).words();
       first[lane] = words[0];
       more[lane] = words[1];
     }
     const Int known = Int::load(first);
-    const auto word = [](SettledPoints::State state, bool from_front) {
-      return Int(SettledPoints{.state = state, .from_front = from_front}.words()[0]);
+    const auto word = [](SettledPoints::State state, bool front) {
+      return Int(SettledPoints{.state = state, .from_front = front}.words()[0]);
     };
     const Mask asking = inside & (known == word(SettledPoints::State::asking, false));
     if (asking.bits() != 0)
       for_each_distinct(parts, asking, [&](std::uint32_t one, Mask in_part) {
-        settled_.ask_part(seen.id, one, count(in_part), seen.triangle.from_front);
+        settled_.ask_part(id_[number], one, count(in_part), from_front);
       });
     const Int state_and_side = known & Int((1u << SettledPoints::kLightsBit) - 1);
-    const Float rough_within = from_bits(Int::load(more));
-    const Mask found = inside &
-                       (state_and_side == word(SettledPoints::State::settled, seen.triangle.from_front)) &
-                       (Float(seen.triangle.footprint) < rough_within * (total * total));
+    const Mask found = inside & (state_and_side == word(SettledPoints::State::settled, from_front)) &
+                       (longest < from_bits(Int::load(more)));
     lights = select(found, shift_in_zeros<SettledPoints::kLightsBit>(known), lights);
     return found;
   }
 
+  struct Last {
+    std::uint32_t id = kNoTriangle;
+    std::uint16_t number = kNever;
+  };
+
   SettledTriangles& settled_;
   const SceneArrays& scene_;
-  const TileRays& rays_;
-  std::array<Seen, 64> seen_;  // by the lowest bits of their ids
+  std::array<Last, 64> last_;  // by the lowest bits of their ids
+  std::size_t count_ = 0;
+  // By number; numbers may repeat a triangle.
+  std::array<std::uint32_t, kMost> id_;
+  std::array<SettledPoints, kMost> known_;
+  std::array<TrianglesInTile, kMost / kWidth> groups_;
 };
+
+// The lanes of the packet from numbers[i] on whose number is not the one before, and the first lane.
+inline unsigned begins_of_runs(const std::uint32_t* numbers, std::size_t i) {
+  if (i > 0) return (~(Int::load(numbers + i) == Int::load_unaligned(numbers + i - 1))).bits() | 1u;
+  unsigned begins = 1;
+  for (std::size_t k = 1; k < kWidth; ++k) begins |= numbers[k] != numbers[k - 1] ? 1u << k : 0u;
+  return begins;
+}
 
 std::size_t find_settled(SettledTriangles& settled, const SceneArrays& scene, const TileRays& rays,
                          std::uint32_t* ids, std::uint8_t* mask) {
@@ -139,19 +148,39 @@ std::size_t find_settled(SettledTriangles& settled, const SceneArrays& scene, co
   std::iota(numbers, numbers + kWidth, 0u);
   const Float lane = to_float(Int::load(numbers));
   const Int none(kNoTriangle);
-  SettledInTile triangles(settled, scene, rays);
+  struct Seen {  // by a packet
+    std::uint16_t first, triangle;
+    std::uint32_t lanes;
+  };
+  std::array<Seen, kSide * kSide> seen;
+  std::size_t count = 0;
+  SettledInTile triangles(settled, scene);
   for (std::size_t i = 0; i < kSide * kSide; i += kWidth) {
     const Int triangle = Int::load(ids + i);
-    const Mask sees = ~(triangle == none);
-    if (sees.bits() == 0) continue;
+    if ((~(triangle == none)).bits() == 0) continue;
+    unsigned begins = begins_of_runs(ids, i);
+    while (begins != 0) {
+      const int begin = __builtin_ctz(begins);
+      begins &= begins - 1;
+      const int end = begins == 0 ? kWidth : __builtin_ctz(begins);
+      const std::uint32_t id = ids[i + as_size(begin)];
+      if (id == kNoTriangle) continue;
+      const std::uint16_t number = triangles.number_of(id);
+      if (number != SettledInTile::kNever)
+        seen[count++] = {static_cast<std::uint16_t>(i), number, (1u << end) - (1u << begin)};
+    }
+  }
+  triangles.find_triangles(rays);
+  for (std::size_t s = 0; s < count;) {
+    const std::size_t i = seen[s].first;
     const Float x = lane + Float(as_float(i % kSide));
     Mask found = Mask::from_bits(0);
     Int lights(0u);
-    for_each_distinct(triangle, sees, [&](std::uint32_t id, Mask same) {
-      found = found | triangles.find(id, same, x, as_float(i / kSide), lights);
-    });
+    for (; s < count && seen[s].first == i; ++s)
+      found = found | triangles.find(seen[s].triangle, Mask::from_bits(seen[s].lanes), x, as_float(i / kSide),
+                                     lights);
     if (found.bits() == 0) continue;
-    select(found, none, triangle).store(ids + i);
+    select(found, none, Int::load(ids + i)).store(ids + i);
     alignas(64) std::uint32_t bits[kWidth];
     lights.store(bits);
     std::uint8_t* const to = mask + i;

@@ -8,13 +8,13 @@
 #include "core/trace/lanes/environment.h"
 #include "core/trace/lanes/glass.h"
 #include "core/trace/lanes/holes.h"
+#include "core/trace/lanes/in_triangle.h"
 #include "core/trace/lanes/lobe.h"
 #include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/sampled.h"
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/settled.h"
 #include "core/trace/lanes/terminator.h"
-#include "core/trace/lanes/triangle_part.h"
 #include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -32,6 +32,27 @@ void camera_rays(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& ra
     put(first + step_x * x + step_y * y, view.parallel ? rays.origin : rays.direction, i);
     put(same, view.parallel ? rays.direction : rays.origin, i);
   }
+}
+
+void keep_hits(RayQueue& rays) {
+  const Int none(kNoTriangle);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < rays.size; i += kWidth) {
+    const Mask in_queue = lanes_from(i, rays.size), hit = in_queue & ~(Int::load(rays.triangle + i) == none);
+    if (hit.bits() != 0 && (kept < i || hit.bits() != in_queue.bits())) {
+      for (float* const* columns : {rays.origin, rays.direction, rays.light})
+        for (int axis = 0; axis < 3; ++axis)
+          store_packed(columns[axis] + kept, Float::load(columns[axis] + i), hit);
+      store_packed(rays.pixel + kept, Int::load(rays.pixel + i), hit);
+      if (rays.width) store_packed(rays.width + kept, Float::load(rays.width + i), hit);
+      if (rays.density) store_packed(rays.density + kept, Float::load(rays.density + i), hit);
+      if (rays.way) store_packed(rays.way + kept, Float::load(rays.way + i), hit);
+      if (rays.medium) store_packed(rays.medium + kept, Int::load(rays.medium + i), hit);
+      store_packed(rays.triangle + kept, Int::load(rays.triangle + i), hit);
+    }
+    kept += as_size(__builtin_popcount(hit.bits()));
+  }
+  rays.size = kept;
 }
 
 // Shadow rays of `lanes` towards a light that casts. They carry `light`.

@@ -30,7 +30,15 @@ SettledTriangles::SettledTriangles(std::shared_ptr<const Mesh> mesh, Under under
     : mesh_(std::move(mesh)),
       under_(std::move(under)),
       known_(mesh_->triangles.size()),
-      parts_(std::min(kMostByPart, mesh_->triangles.size()) * kParts) {}
+      parts_(std::min(kMostByPart, mesh_->triangles.size()) * kParts) {
+  constexpr auto kNever = std::bit_cast<std::uint64_t>(SettledPoints{.state = SettledPoints::State::never});
+  std::vector<bool> may_be;  // by material
+  for (const Material& m : mesh_->materials)
+    may_be.push_back((!under_.mirrors || may_be_rough(*mesh_, m)) &&
+                     (under_.lights.empty() || may_know_lights(m)));
+  for (std::size_t i = 0; i < known_.size(); ++i)
+    if (!may_be[mesh_->triangle_materials[i]]) known_[i].store(kNever, std::memory_order_relaxed);
+}
 
 // What is known after so many more rays have asked.
 SettledPoints SettledTriangles::searched(const PartOfMesh& part, SettledPoints known, unsigned rays,
@@ -40,9 +48,6 @@ SettledPoints SettledTriangles::searched(const PartOfMesh& part, SettledPoints k
   // Each time that their number has doubled.
   if (known.more < kFirstSearch || std::bit_width(before) == std::bit_width(known.more)) return known;
   const SettledPoints asking = known;
-  const Material& m = mesh_->materials[mesh_->triangle_materials[part.triangle]];
-  if ((under_.mirrors && !may_be_rough(*mesh_, m)) || (!under_.lights.empty() && !may_know_lights(m)))
-    return {.state = SettledPoints::State::never};
   const std::optional<std::uint8_t> lights =
       known_lights(*mesh_, part, from_front, under_.lights, under_.light_cutoff);
   if (!lights) return asking;
@@ -57,7 +62,7 @@ void SettledTriangles::ask(std::uint32_t triangle, unsigned rays, unsigned fill,
   std::uint64_t bits = known_[triangle].load(std::memory_order_relaxed);
   const auto known = std::bit_cast<SettledPoints>(bits);
   // Rays of packets that meet several triangles are no longer counted: parts would be smaller than a pixel.
-  if (known.state != SettledPoints::State::asking || (known.more >= 2 * kFirstSearch && rays < fill)) return;
+  if (known.state != SettledPoints::State::asking || (known.more >= 4 * kFirstSearch && rays < fill)) return;
   SettledPoints now = searched({triangle, {}}, known, rays, from_front);
   if (now.state == SettledPoints::State::asking && now.more >= kEnough) {
     // One thread gives it parts; the others see a triangle without any meanwhile.

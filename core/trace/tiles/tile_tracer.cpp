@@ -7,7 +7,7 @@
 #include "core/base/clock.h"
 #include "core/shade/surface.h"
 #include "core/simd/four.h"
-#include "core/trace/settled/triangle_in_tile.h"
+#include "core/trace/settled/tile_rays.h"
 #include "core/trace/view/tile_frustum.h"
 #include "core/trace/view/view_params.h"
 #include "pinocchio/conversion.h"

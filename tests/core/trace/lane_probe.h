@@ -40,6 +40,14 @@ enum class LaneOp {
   packed,
 };
 
+// A triangle in the pixels of a tile (lanes/settled.h), row by row.
+struct MetInTile {
+  std::array<std::array<float, 1024>, 3> above;
+  std::array<float, 1024> total;
+  float least_total, least_for_parts, footprint;
+  bool from_front;
+};
+
 // `count`: a multiple of 16.
 struct LaneProbe {
   Isa isa;
@@ -52,6 +60,7 @@ struct LaneProbe {
   // The parts of triangles (part_of_inside) in which points with these weights of the second and third corner
   // are.
   void (*parts)(const float* y, const float* z, std::uint32_t* number, std::size_t count);
+  void (*met_in_tile)(const TileRays& rays, const std::array<glm::vec3, 3>& corners, MetInTile& met);
   SampleTextures sample_textures;
   // A channel of the place's texture at `points`, not filtered.
   void (*channel)(const TexturePlace& place, unsigned lanes, int channel, const TexturePoints& points,

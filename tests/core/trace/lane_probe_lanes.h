@@ -1,8 +1,8 @@
 // Part of lane_probe.cpp.in, which names the namespace in PINOCCHIO_LANES.
 #include "core/simd/lanes.h"
 #include "core/trace/lanes/environment_light.h"
+#include "core/trace/lanes/in_triangle.h"
 #include "core/trace/lanes/texture.h"
-#include "core/trace/lanes/triangle_part.h"
 #include "tests/core/trace/lane_probe.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -25,6 +25,27 @@ void powers(const float* x, const float* y, float* result, std::size_t count) {
 void parts(const float* y, const float* z, std::uint32_t* number, std::size_t count) {
   for (std::size_t i = 0; i < count; i += kWidth)
     part_of(Vec(Float(0.0f), Float::load(y + i), Float::load(z + i))).store(number + i);
+}
+
+void met_in_tile(const TileRays& rays, const std::array<glm::vec3, 3>& corners, MetInTile& met) {
+  constexpr std::size_t kLane = kWidth / 2;
+  TrianglesInTile triangles;
+  for (std::size_t lane = 0; lane < kWidth; ++lane)
+    triangles.set_corners(lane, corners[0], corners[1], lane == kLane ? corners[2] : corners[0]);
+  triangles.find(rays);
+  met.least_total = triangles.least_total[kLane];
+  met.least_for_parts = triangles.least_for_parts[kLane];
+  met.footprint = triangles.footprint[kLane];
+  met.from_front = (triangles.from_front >> kLane & 1u) != 0;
+  for (std::size_t i = 0; i < met.total.size(); ++i) {
+    const auto at = [&](const LinearInPixel& number) {
+      alignas(64) float value[kWidth];
+      number.value(kLane, Float(as_float(i % 32)), as_float(i / 32)).store(value);
+      return value[0];
+    };
+    for (std::size_t k = 0; k < 3; ++k) met.above[k][i] = at(triangles.above[k]);
+    met.total[i] = at(triangles.total);
+  }
 }
 
 void store(const Vec& v, float* const* columns, std::size_t i) {
@@ -155,6 +176,7 @@ const LaneProbe kProbe{Isa::PINOCCHIO_LANES,
                        samples,
                        powers,
                        parts,
+                       met_in_tile,
                        sample_textures,
                        channel_of_points,
                        environment_lights,

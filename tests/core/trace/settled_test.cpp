@@ -14,7 +14,7 @@
 #include "bench/one_ray/map_lookup.h"
 #include "core/trace/settled/rough_within.h"
 #include "core/trace/settled/settled_triangles.h"
-#include "core/trace/settled/triangle_in_tile.h"
+#include "core/trace/settled/tile_rays.h"
 #include "core/trace/tiles/tile_plan.h"
 #include "core/trace/view/view_params.h"
 #include "tests/core/trace/clear_ways_scenes.h"

@@ -1,6 +1,6 @@
 // Where the camera's rays meet a triangle, by numbers that are linear in the pixel, against each ray by
 // itself.
-#include "core/trace/settled/triangle_in_tile.h"
+#include "core/trace/settled/tile_rays.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 #include "core/bsp/clear/clear_way.h"
 #include "core/parallel/tiles.h"
 #include "core/trace/view/view_params.h"
+#include "tests/core/trace/lane_probe.h"
 #include "tests/core/trace/plane_hit.h"
 #include "tests/support/scenes.h"
 
@@ -17,10 +18,6 @@ namespace pinocchio {
 namespace {
 
 constexpr double kLeast{kInnerWeight}, kInside = 1.0 - 3.0 * kLeast;
-
-float value(const LinearInPixel& number, int x, int y) {
-  return (number.at + number.per_y * as_float(y)) + number.per_x * as_float(x);
-}
 
 Camera random_camera(const glm::vec3& target, Random& random, int i) {
   Camera camera;
@@ -34,9 +31,10 @@ Camera random_camera(const glm::vec3& target, Random& random, int i) {
   return camera;
 }
 
-TEST(TriangleInTile, IsWhatEachRayMeets) {
+TEST(TrianglesInTile, IsWhatEachRayMeets) {
   constexpr glm::ivec2 kPicture{320, 240};
   Random random(11);
+  const std::vector<Isa> isas = supported_isas();
   const TileGrid grid(kPicture);
   std::size_t judged = 0, inside = 0, in_parts = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -49,12 +47,14 @@ TEST(TriangleInTile, IsWhatEachRayMeets) {
                                            near + random_point(random, size),
                                            near + random_point(random, size)};
     const PixelBox tile = grid.tile(grid.tile_of(kPicture / 2));
-    const TriangleInTile found(TileRays(view, tile.lo, Footprint::of_camera(view)), corners);
-    for (int y = 0; y < TileRays::kSide; y += 3)
-      for (int x = 0; x < TileRays::kSide; ++x) {
-        const float total = value(found.total, x, y);
-        const float above[3] = {value(found.above[0], x, y), value(found.above[1], x, y),
-                                value(found.above[2], x, y)};
+    MetInTile found;
+    lane_probe(isas[as_size(i) % isas.size()])
+        .met_in_tile(TileRays(view, tile.lo, Footprint::of_camera(view)), corners, found);
+    for (int y = 0; y < TileGrid::kTileSize; y += 3)
+      for (int x = 0; x < TileGrid::kTileSize; ++x) {
+        const std::size_t pixel = as_size(32 * y + x);
+        const float total = found.total[pixel];
+        const float above[3] = {found.above[0][pixel], found.above[1][pixel], found.above[2][pixel]};
         const bool is_inside = std::min({above[0], above[1], above[2]}) > 0.0f && found.least_total < total;
         const PlaneHit hit = plane_hit_of(corners, view, tile.lo.x + x, tile.lo.y + y);
         const double least = std::min({hit.weights.x, hit.weights.y, hit.weights.z});
@@ -80,18 +80,20 @@ TEST(TriangleInTile, IsWhatEachRayMeets) {
 }
 
 // Too large or too small for single precision, flat, or not numbers.
-TEST(TriangleInTile, NothingIsKnownOfWhatCannotBe) {
+TEST(TrianglesInTile, NothingIsKnownOfWhatCannotBe) {
   const shared::ViewParams view = view_params(Camera{}, {320, 240});
   const TileRays rays(view, {0, 0}, Footprint::of_camera(view));
   const glm::vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
-  for (const float scale : {1e-30f, 0.0f, 1e12f, 1e30f, NAN, INFINITY}) {
-    const TriangleInTile found(rays, {scale * a, scale * b, scale * c});
-    for (int y = 0; y < TileRays::kSide; ++y)
-      for (int x = 0; x < TileRays::kSide; ++x)
-        EXPECT_FALSE(found.least_total < value(found.total, x, y)) << scale;
+  for (const Isa isa : supported_isas()) {
+    const auto expect_nothing = [&](const std::array<glm::vec3, 3>& corners) {
+      MetInTile found;
+      lane_probe(isa).met_in_tile(rays, corners, found);
+      for (const float total : found.total) EXPECT_FALSE(found.least_total < total) << corners[1].x;
+    };
+    for (const float scale : {1e-30f, 0.0f, 1e12f, 1e30f, NAN, INFINITY})
+      expect_nothing({scale * a, scale * b, scale * c});
+    expect_nothing({a, b, 2.0f * b});
   }
-  const TriangleInTile flat(rays, {a, b, 2.0f * b});
-  EXPECT_FALSE(flat.least_total < value(flat.total, 16, 16));
 }
 
 }  // namespace
