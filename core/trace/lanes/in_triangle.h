@@ -36,8 +36,8 @@ struct LinearInPixel {
     y.store(per_y);
   }
   // For the triangle of one lane, in the pixels (x, y).
-  [[nodiscard]] Float value(std::size_t lane, Float x, float y) const {
-    return Float(at[lane] + per_y[lane] * y) + Float(per_x[lane]) * x;
+  [[nodiscard]] Float value(std::size_t lane, Float x, Float y) const {
+    return (Float(at[lane]) + Float(per_y[lane]) * y) + Float(per_x[lane]) * x;
   }
 };
 
@@ -52,7 +52,7 @@ struct TrianglesInTile {
   alignas(64) float least_total[kWidth], least_for_parts[kWidth];
   // Divided by the square of `total`, at least the longest side of the pixel's footprint on the triangle.
   alignas(64) float footprint[kWidth];
-  unsigned from_front = 0;  // the lanes that are seen from where their corners turn counterclockwise
+  unsigned from_front;  // the lanes that are seen from where their corners turn counterclockwise
 
   void set_corners(std::size_t lane, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -62,7 +62,7 @@ struct TrianglesInTile {
     }
   }
   // Finds the others by the corners.
-  void find(const TileRays& rays) {
+  void meet(const TileRays& rays) {
     // At least what is lost by single precision, of the largest numbers that are added: here, and in the
     // bounce step, which finds its own point.
     constexpr float kLost = 1.35e-6f;
@@ -87,8 +87,8 @@ struct TrianglesInTile {
     const Float sign = select(along < Float(0.0f), Float(-1.0f), Float(1.0f));
     const Float sum[3] = {sign * dot(direction, n), rays.parallel ? Float(0.0f) : sign * dot(step_x, n),
                           rays.parallel ? Float(0.0f) : sign * dot(step_y, n)};
-    const Float least(kInnerWeight), inside(kInside);
-    total.set(inside * sum[0] - lost, inside * sum[1], inside * sum[2]);
+    const Float least(kInnerWeight), share(kInside);
+    total.set(share * sum[0] - lost, share * sum[1], share * sum[2]);
     for (std::size_t k = 0; k < 3; ++k) {
       // The weights are to each other as the volumes between the ray and the triangle's sides.
       const Vec to_next = corner[(k + 1) % 3] - Vec(rays.origin), across = cross(to_next, edge[k]);

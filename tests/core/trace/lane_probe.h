@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -39,6 +40,8 @@ enum class LaneOp {
   gather,
   packed,
 };
+
+struct TileRays;
 
 // A triangle in the pixels of a tile (lanes/settled.h), row by row.
 struct MetInTile {

@@ -32,7 +32,7 @@ void met_in_tile(const TileRays& rays, const std::array<glm::vec3, 3>& corners, 
   TrianglesInTile triangles;
   for (std::size_t lane = 0; lane < kWidth; ++lane)
     triangles.set_corners(lane, corners[0], corners[1], lane == kLane ? corners[2] : corners[0]);
-  triangles.find(rays);
+  triangles.meet(rays);
   met.least_total = triangles.least_total[kLane];
   met.least_for_parts = triangles.least_for_parts[kLane];
   met.footprint = triangles.footprint[kLane];
@@ -40,7 +40,7 @@ void met_in_tile(const TileRays& rays, const std::array<glm::vec3, 3>& corners, 
   for (std::size_t i = 0; i < met.total.size(); ++i) {
     const auto at = [&](const LinearInPixel& number) {
       alignas(64) float value[kWidth];
-      number.value(kLane, Float(as_float(i % 32)), as_float(i / 32)).store(value);
+      number.value(kLane, Float(as_float(i % 32)), Float(as_float(i / 32))).store(value);
       return value[0];
     };
     for (std::size_t k = 0; k < 3; ++k) met.above[k][i] = at(triangles.above[k]);
