@@ -58,11 +58,11 @@ SettledPoints SettledTriangles::searched(const PartOfMesh& part, SettledPoints k
   return {SettledPoints::State::settled, from_front, *lights, std::bit_cast<std::uint32_t>(rough)};
 }
 
-void SettledTriangles::ask(std::uint32_t triangle, unsigned rays, unsigned fill, bool from_front) {
+void SettledTriangles::ask(std::uint32_t triangle, unsigned rays, unsigned many, bool from_front) {
   std::uint64_t bits = known_[triangle].load(std::memory_order_relaxed);
   const auto known = std::bit_cast<SettledPoints>(bits);
-  // Rays of packets that meet several triangles are no longer counted: parts would be smaller than a pixel.
-  if (known.state != SettledPoints::State::asking || (known.more >= 4 * kFirstSearch && rays < fill)) return;
+  // Parts of such triangles would be smaller than a pixel.
+  if (known.state != SettledPoints::State::asking || (known.more >= 4 * kFirstSearch && rays < many)) return;
   SettledPoints now = searched({triangle, {}}, known, rays, from_front);
   if (now.state == SettledPoints::State::asking && now.more >= kEnough) {
     // One thread gives it parts; the others see a triangle without any meanwhile.

@@ -60,9 +60,9 @@ class SettledTriangles {
   [[nodiscard, gnu::always_inline]] SettledPoints of_part(SettledPoints triangle, std::uint32_t part) const {
     return std::bit_cast<SettledPoints>(parts_[place_of(triangle, part)].load(std::memory_order_relaxed));
   }
-  // So many rays ask at once, for what is still `asking`; `fill` rays fill a packet. Once enough have, it is
-  // searched.
-  void ask(std::uint32_t triangle, unsigned rays, unsigned fill, bool from_front);
+  // So many rays, side by side, ask for what is still `asking`. Once enough have, it is searched. Fewer than
+  // `many` do not count for long: their triangle is too small for parts.
+  void ask(std::uint32_t triangle, unsigned rays, unsigned many, bool from_front);
   void ask_part(std::uint32_t triangle, std::uint32_t part, unsigned rays, bool from_front);
 
   [[nodiscard]] const Under& under() const { return under_; }
