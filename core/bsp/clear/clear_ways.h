@@ -22,8 +22,8 @@ class ClearWays {
   ClearWays(std::shared_ptr<const SceneTrees> trees, const LightPlace& light);
 
   enum class Way { unknown, clear, by_part };
-  // What is known of the way from a whole triangle, which `rays` more rays ask for. The call that brings them
-  // to kEnough searches: by then, tracing them has taken about as long as a search.
+  // The way from a whole triangle, as far as it is known. Counts `rays` more shadow rays there; once they are
+  // kEnough, it is searched: by then, tracing them has taken about as long as a search.
   [[nodiscard, gnu::always_inline]] Way way_of(std::uint32_t triangle, unsigned rays) {
     const std::uint8_t known = known_[triangle].load(std::memory_order_acquire);
     if (known == kClear) return Way::clear;
@@ -35,7 +35,7 @@ class ClearWays {
   // have answered by_part for the triangle.
   [[nodiscard]] bool is_part_clear(std::uint32_t triangle, std::uint32_t part, unsigned rays);
 
-  // What those two have found so far. These neither count nor search.
+  // The same two answers, but no ray is counted and nothing is searched.
   [[nodiscard]] Way known_way(std::uint32_t triangle) const;
   [[nodiscard]] bool is_part_known_clear(std::uint32_t triangle, std::uint32_t part) const;
 

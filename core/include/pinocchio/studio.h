@@ -12,8 +12,8 @@ namespace pinocchio {
 // shows fills 85 % of the shorter side of a picture of `size` pixels. Grounds and skies around it are left
 // out of account: flat parts below that reach beyond the rest, and large parts around the rest that face it.
 [[nodiscard]] Camera studio_camera(const Scene& scene, glm::ivec2 size);
-// The same for a camera that turns around its target: the target is on the vertical axis through the middle
-// of what the file shows, which stays in the picture all the way around.
+// A studio_camera for a turntable. Its target is on the vertical axis through the object's middle. When the
+// eye turns around the target, the object stays in the picture.
 [[nodiscard]] Camera studio_turntable(const Scene& scene, glm::ivec2 size);
 
 // Lights a scene that has no light: a soft, neutral sky and a directional light that casts, from the left of

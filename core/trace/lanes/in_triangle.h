@@ -47,8 +47,8 @@ struct TrianglesInTile {
   // Divided by `total`: the share of each barycentric weight above kInnerWeight. Less than they are by what
   // may be lost in rounding, so that points are inside where all three are above 0.
   LinearInPixel above[3], total;
-  // Where `total` is not above it, nothing is certain: the ray is nearly edge on, or roundings are too large.
-  // Below the other, the part is not.
+  // Smaller `total`s make a point uncertain (the ray is nearly edge on, or rounding is too large), and the
+  // number of its part.
   alignas(64) float least_total[kWidth], least_for_parts[kWidth];
   // Divided by the square of `total`, at least the longest side of the pixel's footprint on the triangle.
   alignas(64) float footprint[kWidth];

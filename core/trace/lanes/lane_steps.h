@@ -145,9 +145,9 @@ struct LaneSteps {
   void (*camera_rays)(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& rays);
   // Drops the rays whose triangle is kNoTriangle; the others stay in order.
   void (*keep_hits)(RayQueue& rays);
-  // Of a tile's pixels that see settled points: writes the bits of the lights that reach these to `mask`,
-  // which is 0 before, and kNoTriangle to `ids`. Both are row by row. Returns how many lights reach the
-  // points, point by point.
+  // Finds the pixels of a tile that see settled points. Sets their `mask`, which is 0 before, to the bits of
+  // the lights that reach the points, and their `ids` to kNoTriangle. Both arrays are row by row. Returns the
+  // number of bits that were set.
   std::size_t (*find_settled)(SettledTriangles& settled, const SceneArrays& scene, const TileRays& rays,
                               std::uint32_t* ids, std::uint8_t* mask);
   // Writes 1 for rays that met a point where alpha lets them pass as if nothing were there, else 0.

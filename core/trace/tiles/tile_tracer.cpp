@@ -201,7 +201,7 @@ void TileTracer::find_settled() {
                                                            ids_.data(), mask_.data());
 }
 
-// Does that where the ids were found, and drops the rays of these points.
+// The same where rays found the ids: drops the rays that meet such points.
 void TileTracer::drop_settled() {
   if (!plan_->settled || seen_.size == 0) return;
   ids_.fill(kNoTriangle);
@@ -296,59 +296,6 @@ void TileTracer::light_visible() {
   }
   bounce(step, 0, seen_, rays_, direct_.data(), true);
   light_points(step, 0, {&seen_, 1}, plan_->visible_lights, direct_.data());
-}
-
-// Fires the step's shadow rays. Then lights its points by each group of lights after the first.
-void TileTracer::light_points(const Bounce& step, int generation, std::span<const RayQueue> points,
-                              const std::vector<LightGroup>& groups, glm::vec4* radiance) {
-  for (const LightGroup& group : groups) {
-    glm::vec4* const to = group.in_reflection ? reflected_.data() : radiance;
-    if (&group != &groups.front()) {
-      std::size_t count = 0;
-      for (const RayQueue& queue : points) count += queue.size;
-      make_room_for_shadows(count);
-      for (const RayQueue& queue : points) bounce(lights_alone(group, step), generation, queue, next_, to);
-    }
-    fire_shadows(group, generation, to);
-    fire_at_environment(generation);
-  }
-}
-
-void TileTracer::fire_shadows(const LightGroup& group, int generation, glm::vec4* radiance) {
-  const bool visible = generation == 0, adds = !visible || plan_->visible.adds_light || group.in_reflection;
-  std::uint8_t* const mask = visible ? &mask_[as_size(group.byte) * kPixels] : nullptr;
-  for (const BounceLight& light : group.lights) {
-    if (light.slot < 0) continue;
-    const RayQueue &queue = shadow_[as_size(light.queue)], &clear = clear_[as_size(light.queue)];
-    counts_.shadow += clear.size;
-    if (queue.size > 0) find_blocked(light, queue, generation);
-    if (visible) {  // without a branch, which would be predicted badly at the edges of shadows
-      for (std::size_t i = 0; i < queue.size; ++i)
-        mask[queue.pixel[i]] |= static_cast<std::uint8_t>(((blocked_[i] & 1u) ^ 1u) << light.queue);
-      for (std::size_t i = 0; i < clear.size; ++i)
-        mask[clear.pixel[i]] |= static_cast<std::uint8_t>(1u << light.queue);
-    }
-    const bool apart = visible && plan_->out.sampled && light.has_size;
-    glm::vec4* const of_lamps = &reflected_[kSampledPixels + kLampPixels];
-    if (plan_->tints && queue.size > 0) add_light_through_glass(queue, apart ? of_lamps : reflected_.data());
-    if (!adds && !apart) continue;
-    glm::vec4* const to = apart ? of_lamps : radiance;
-    const auto add = [to](const RayQueue& rays, std::size_t i) {
-      to[rays.pixel[i]] += glm::vec4(rays.light[0][i], rays.light[1][i], rays.light[2][i], 0.0f);
-    };
-    for (std::size_t i = 0; i < queue.size; ++i)
-      if (!blocked_[i]) add(queue, i);
-    for (std::size_t i = 0; i < clear.size; ++i) add(clear, i);
-  }
-}
-
-// Sets blocked_ for each ray to the light.
-void TileTracer::find_blocked(const BounceLight& light, const RayQueue& queue, int generation) {
-  if (blocked_.size() < queue.size + kQueuePad) blocked_.resize(2 * queue.size + kQueuePad);
-  const float reach = light.params.kind == shared::kLightDirectional ? kInfinity : 1.0f;
-  if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
-  ask_occluded(queue, reach, generation == 0 && plan_->visible.light_later ? &light : nullptr);
-  block_by_ways_up(ways_up_[as_size(light.queue)], generation);
 }
 
 // Black light is not written again where it is known to be there.

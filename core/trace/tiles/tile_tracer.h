@@ -119,7 +119,7 @@ class TileTracer {
   Footprint seen_footprint_;        // of the tile, where a RayModel makes the rays
   bool reflects_ = false;           // reflected_ may hold light
   std::vector<std::uint8_t> mask_;  // kPixels for each byte of the mask
-  // Of the tile's pixels, row by row: given or found; aligned for packets.
+  // The ids that the tile's pixels see, row by row. Aligned for packets.
   alignas(64) std::array<std::uint32_t, kPixels> ids_;
 };
 

@@ -37,7 +37,7 @@ TileResult trace_tiles(const TraceJob& job, const TileOutputs& outputs) {
   if (outputs.seen)
     seen.emplace(
         *outputs.seen, outputs.scale, grid,
-        plan.model ? all_tiles(grid) : tiles_that_may_see(job.tracer.trees().bounds, plan.view, grid));
+        plan.model ? PixelBox{{0, 0}, size} : part_that_may_see(job.tracer.trees().bounds, plan.view, size));
   TileResult result;
   std::mutex mutex;
   job.workers.for_each(grid.count(), [&](std::size_t i) {

@@ -1,5 +1,7 @@
 #include "core/trace/view/seen_tiles.h"
 
+#include <algorithm>
+
 #include "core/trace/view/tile_frustum.h"
 #include "pinocchio/conversion.h"
 #include "pinocchio/ray.h"
@@ -16,33 +18,27 @@ std::uint32_t all_of_line(const std::uint32_t* ids) {
 
 }  // namespace
 
-TileBox all_tiles(const TileGrid& grid) {
-  return {glm::ivec2(0), glm::ivec2(grid.columns(), grid.rows())};
-}
-
-TileBox tiles_that_may_see(const Bounds& box, const shared::ViewParams& view, const TileGrid& grid) {
-  TileBox tiles = all_tiles(grid);
-  const auto miss = [&](glm::ivec2 lo, glm::ivec2 hi) {
-    return TileFrustum(view, {TileGrid::kTileSize * lo, TileGrid::kTileSize * hi}).misses(box);
-  };
+PixelBox part_that_may_see(const Bounds& box, const shared::ViewParams& view, glm::ivec2 size) {
+  PixelBox part{{0, 0}, size};
   for (int axis : {0, 1}) {
-    int &lo = tiles.lo[axis], &hi = tiles.hi[axis];
-    const auto line_misses = [&](int i) {  // the column or row
-      TileBox line = all_tiles(grid);
-      line.lo[axis] = i;
-      line.hi[axis] = i + 1;
-      return miss(line.lo, line.hi);
+    int &lo = part.lo[axis], &hi = part.hi[axis];
+    const auto misses = [&](int from, int to) {  // a column or row of tiles
+      PixelBox line{{0, 0}, size};
+      line.lo[axis] = from;
+      line.hi[axis] = to;
+      return TileFrustum(view, line).misses(box);
     };
-    while (lo < hi && line_misses(lo)) ++lo;
-    while (lo < hi && line_misses(hi - 1)) --hi;
+    constexpr int kSide = TileGrid::kTileSize;
+    while (lo < hi && misses(lo, std::min(lo + kSide, hi))) lo += kSide;
+    while (lo < hi && misses((hi - 1) / kSide * kSide, hi)) hi = (hi - 1) / kSide * kSide;
   }
-  return tiles;
+  return part;
 }
 
 bool SeenTiles::any(std::size_t tile) const {
   const PixelBox box = grid_.tile(tile);
-  const glm::ivec2 at = box.lo / TileGrid::kTileSize;
-  if (glm::any(glm::lessThan(at, within_.lo)) || !glm::all(glm::lessThan(at, within_.hi))) return false;
+  if (glm::any(glm::lessThan(box.lo, within_.lo)) || !glm::all(glm::lessThan(box.lo, within_.hi)))
+    return false;
   const bool whole_lines = scale_ == 1 && box.size().x == TileGrid::kTileSize;
   std::uint32_t all = kNoTriangle;
   for (int y = box.lo.y; y < box.hi.y; ++y) {

@@ -1,4 +1,4 @@
-// Where the camera's rays meet a triangle's plane, in double precision, ray by ray.
+// The point where a camera ray meets a triangle's plane, computed in double precision.
 #pragma once
 
 #include <algorithm>
