@@ -91,6 +91,21 @@ TEST_F(EditingTest, TheCameraIsTypedAndDragged) {
   expect_clean_close();
 }
 
+// However fast it follows: a key after Return is the window's again, one after the click the field's.
+TEST_F(EditingTest, KeysAreTheFieldsWhileItIsOpenAndNoLonger) {
+  open_with("Camera", scene("cornell"));
+  const std::vector<int> rows = widgets_at(150, 30, 150);
+  ASSERT_GE(rows.size(), 4u);
+  for (const std::string digits : {"3", "5", "7"}) {
+    const long printed = lines_of("pinocchio render");
+    xdo(at(120, rows[0]) + "sleep 0.1 keydown ctrl click 1 keyup ctrl");
+    xdo("key --delay 0 0 period " + digits + " Return p");
+    EXPECT_TRUE(becomes([&] { return lines_of("pinocchio render") > printed; })) << digits;
+    EXPECT_NEAR(vector_option("--eye")[0], std::stod("0." + digits), 1e-6);
+  }
+  expect_clean_close();
+}
+
 // Parallel rays, with the target as large as before; then a height that is typed; Ctrl + Z takes both back.
 TEST_F(EditingTest, TheProjectionIsChosen) {
   open_with("Camera", scene("cornell"));

@@ -178,8 +178,10 @@ bool Gui::handle(const gl::WindowEvent& event) {
   return false;
 }
 
+// As of the last event: ImGui's WantTextInput says what the frame before it did.
 bool Gui::wants_text() const {
-  return ImGui::GetIO().WantTextInput;
+  const ImGuiContext& gui = *ImGui::GetCurrentContext();
+  return gui.ActiveId != 0 && gui.ActiveId == gui.InputTextState.ID;
 }
 
 bool Gui::is_active() const {
