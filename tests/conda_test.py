@@ -16,8 +16,8 @@ source = pathlib.Path(sys.argv[1])
 RECIPE = source / "conda/recipe.yaml"
 # What the module's CMake files look for, and the package of conda-forge that has it.
 PACKAGE_OF = {
-    "Boost": "libboost-headers", "Imath": "imath", "OpenEXR": "openexr", "Python": "python", "deflate": "libdeflate", "draco": "draco",
-    "glfw3": "glfw", "glm": "glm", "libturbojpeg": "libjpeg-turbo", "libwebp": "libwebp-base", "meshoptimizer": "meshoptimizer",
+    "Boost": "libboost-headers", "Imath": "imath", "OpenEXR": "openexr", "Python": "python", "draco": "draco",
+    "glfw3": "glfw", "glm": "glm", "libdeflate": "libdeflate", "libisal": "isa-l", "libturbojpeg": "libjpeg-turbo", "libwebp": "libwebp-base", "meshoptimizer": "meshoptimizer",
     "nanobind": "nanobind", "nlohmann_json": "nlohmann_json", "spng": "libspng", "tl-expected": "tl-expected", "glad": "glad2",
     "PkgConfig": "pkg-config",
 }
@@ -33,7 +33,6 @@ def looked_for():
         names.update(re.findall(r"find_package\((\S+?)[\s)]", text))
         for modules in re.findall(r"pkg_check_modules\(\S+ REQUIRED IMPORTED_TARGET ([^)]*)\)", text):
             names.update(modules.split())
-        names.update(re.findall(r"\s(deflate)\b", text))
         names.update(re.findall(r"-m (glad)\b", text))
     return names - OF_THE_COMPILER
 

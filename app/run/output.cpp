@@ -89,8 +89,9 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
   add_choice(verb, "--compression", "compression of the EXR, lossless (zip)", kExrCompressionNames,
              options.compression);
   add_display_options(verb, options.exposure_ev, options.tone_map, 64);
-  verb.add_flag("--deterministic", options.deterministic,
-                "leave the render time out of the EXR, so that every machine writes the same file");
+  verb.add_flag(
+      "--deterministic", options.deterministic,
+      "leave the render time out of the EXR, and pack it so that every machine writes the same file; slower");
   verb.add_flag(
       "--skip-existing", options.skip_existing,
       "skip frames whose files are complete and were drawn by the same settings from the same files");

@@ -142,6 +142,7 @@ void add_attributes(ExrFile& exr, const FrameOutput& frame) {
                                               " frame(s) before, warped; shadow.mask and reflection are left "
                                               "out, as this frame's own were not traced yet";
   if (frame.render_s) exr.attributes["renderTimeSeconds"] = as_float(*frame.render_s);
+  exr.reproducible = !frame.render_s;
 }
 
 }  // namespace

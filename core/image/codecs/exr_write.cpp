@@ -186,7 +186,7 @@ void write_file(const std::filesystem::path& file, const ExrFile& header, Worker
     const int i = n, y0 = i * lines_of_chunk, y1 = std::min(y0 + lines_of_chunk, size.y);
     std::vector<std::byte> bytes = lines_of(band(y0, y1), size.x, y1 - y0);
     if (header.compression == ExrCompression::zip || header.compression == ExrCompression::zips)
-      bytes = pack_zip(bytes);
+      bytes = pack_zip(bytes, header.reproducible);
     else if (header.compression != ExrCompression::none)
       bytes = packed_by_openexr(to.exr, header.data_window.lo.y + y0, std::move(bytes));
     put_chunk(to, header, lines_of_chunk, i, std::move(bytes));

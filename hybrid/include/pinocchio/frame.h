@@ -132,7 +132,9 @@ void unpack_mask(const FrameResult& frame, std::uint8_t* to, std::size_t bytes =
 struct ExrOptions {
   std::string layers = "all";  // or "none", or EXR names of kLayers with commas between
   ExrCompression compression = ExrCompression::zip;
-  std::optional<double> render_s{};  // the render time, for the header
+  // The render time, for the header. Without it the same picture has the same bytes on every machine, and
+  // packing takes three times as long.
+  std::optional<double> render_s{};
   // For the header: the frame's number in an animation, and the frames per second.
   int frame = 0;
   int frames_per_second = 24;
