@@ -106,6 +106,18 @@ TEST_F(EditingTest, KeysAreTheFieldsWhileItIsOpenAndNoLonger) {
   expect_clean_close();
 }
 
+// From typed number to typed number, however fast.
+TEST_F(EditingTest, TabLeadsToTheNextField) {
+  open_with("Camera", scene("cornell"));
+  const std::vector<int> rows = widgets_at(150, 30, 150);
+  ASSERT_GE(rows.size(), 4u);
+  xdo(at(120, rows[0]) + "sleep 0.1 keydown ctrl click 1 keyup ctrl");
+  xdo("key --delay 0 0 period 5 Tab 1 period 2 5 Tab 2 period 7 5 Return");
+  EXPECT_TRUE(picture_becomes_other("opened.png"));
+  EXPECT_EQ(option(command_line(), "--eye"), "0.5,1.25,2.75");
+  expect_clean_close();
+}
+
 // Parallel rays, with the target as large as before; then a height that is typed; Ctrl + Z takes both back.
 TEST_F(EditingTest, TheProjectionIsChosen) {
   open_with("Camera", scene("cornell"));

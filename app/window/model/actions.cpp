@@ -126,6 +126,8 @@ const std::vector<std::pair<const char*, const char*>>& mouse_bindings() {
       {"Ctrl + wheel", "enlarge pixels"},
       {"Ctrl + click", "pick the material"},
       {"Ctrl + Shift + click", "expose for this point"},
+      {"Ctrl + click", "type a number of a panel"},
+      {"Tab", "type the next number"},
       {"W A S D", "fly, Shift faster"},
       {"E Q", "fly up, down"},
       {"1 to 9", "the file's cameras"},

@@ -129,8 +129,8 @@ void draw_panel(Panel panel, Model& model, float scale) {
   ImGui::SetNextWindowPos(ImVec2(area.lo.x + place.x * area.size.x, area.lo.y + place.y * area.size.y),
                           ImGuiCond_FirstUseEver, ImVec2(place.x, place.y));
   ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f), ImVec2(width, area.size.y));
-  const bool shown =
-      ImGui::Begin(title, &model.panels[panel], ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav);
+  const bool shown = ImGui::Begin(title, &model.panels[panel],
+                                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNavFocus);
   if (shown) place.draw(model, scale);
   const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
   ImVec2 to = inside(area, moved_with(model.places.areas[i], area, at, size), size);
