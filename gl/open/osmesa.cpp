@@ -1,6 +1,7 @@
 #include "gl/open/osmesa.h"
 
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <string_view>
 #include <utility>
@@ -45,6 +46,16 @@ const Osmesa& load_osmesa() {
   return osmesa;
 }
 
+// While a process ends, OSMesa frees what its contexts need, and crashes where one is used or destroyed
+// later, as by the destructor of a static variable.
+std::atomic<bool> is_gone = false;
+
+// After OSMesa's first context: what is registered last is called first.
+void expect_end() {
+  static const int registered = std::atexit([] { is_gone = true; });
+  (void)registered;
+}
+
 // OSMesa crashes when it is told to draw with Vulkan.
 void refuse_zink() {
   const char* const driver = std::getenv("GALLIUM_DRIVER");
@@ -63,6 +74,7 @@ class OsmesaContext final : public Context {
       if (context_) break;
     }
     if (!context_) throw Error("OSMesaCreateContextAttribs (OpenGL 3.3 core) failed");
+    expect_end();
     try {
       make_current();
       describe("osmesa", "OSMesa", debug);
@@ -74,17 +86,22 @@ class OsmesaContext final : public Context {
   ~OsmesaContext() override { destroy(); }
 
  private:
-  [[nodiscard]] bool is_bound() const override { return osmesa_.get_current_context() == context_; }
+  [[nodiscard]] bool is_bound() const override {
+    return !is_gone && osmesa_.get_current_context() == context_;
+  }
   void bind() override {
+    if (is_gone) throw Error("the process ends: OSMesa's contexts are gone");
     if (!osmesa_.make_current(context_, default_framebuffer_.data(), GL_UNSIGNED_BYTE, 1, 1))
       throw Error("OSMesaMakeCurrent failed");
   }
-  void unbind() override { osmesa_.make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+  void unbind() override {
+    if (!is_gone) osmesa_.make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+  }
   [[nodiscard]] GLADloadfunc loader() const override { return osmesa_.get_proc_address; }
   void destroy() {
     release();
     drop_data();
-    osmesa_.destroy_context(context_);
+    if (!is_gone) osmesa_.destroy_context(context_);
   }
 
   const Osmesa& osmesa_;

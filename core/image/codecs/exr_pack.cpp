@@ -8,6 +8,8 @@
 #include <memory>
 #include <new>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -44,7 +46,7 @@ void predict(std::span<const std::byte> lines, std::byte* to) {
 
 // libdeflate: its bytes depend on nothing but its version. Higher levels make files 1 to 3 % smaller and take
 // up to twice the time (docs/measurements.md).
-class Reproducible {
+class ReproduciblePacker {
  public:
   // The size, or 0 if `to` is too small.
   std::size_t pack(std::span<const std::byte> from, std::span<std::byte> to) {
@@ -58,19 +60,19 @@ class Reproducible {
 };
 
 // ISA-L. Level 1 makes files 1 % larger and takes 3 % less time, level 3 twice the time.
-class Fast {
+class FastPacker {
  public:
   std::size_t pack(std::span<const std::byte> from, std::span<std::byte> to) {
     isal_deflate_stateless_init(stream_.get());
     stream_->level = 2;
     stream_->level_buf = memory_.data();
-    stream_->level_buf_size = static_cast<std::uint32_t>(memory_.size());
+    stream_->level_buf_size = as_uint32(memory_.size());
     stream_->gzip_flag = IGZIP_ZLIB;
     stream_->end_of_stream = 1;
     stream_->next_in = reinterpret_cast<std::uint8_t*>(const_cast<std::byte*>(from.data()));
-    stream_->avail_in = static_cast<std::uint32_t>(from.size());
+    stream_->avail_in = as_uint32(from.size());
     stream_->next_out = reinterpret_cast<std::uint8_t*>(to.data());
-    stream_->avail_out = static_cast<std::uint32_t>(to.size());
+    stream_->avail_out = as_uint32(to.size());
     return isal_deflate_stateless(stream_.get()) == COMP_OK ? stream_->total_out : 0;
   }
 
@@ -83,7 +85,7 @@ class Fast {
 constexpr std::size_t kReadBeyond = 64;
 
 // A thread's memory. It is kept from chunk to chunk, since the system clears new memory each time.
-struct Memory {
+struct PackerMemory {
   std::vector<std::byte> predicted, packed;
 };
 
@@ -97,12 +99,13 @@ std::size_t pack_by(std::span<const std::byte> from, std::span<std::byte> to) {
 
 std::vector<std::byte> pack_zip(std::span<const std::byte> lines, bool reproducible) {
   if (lines.empty()) return {};
-  thread_local Memory memory;
+  thread_local PackerMemory memory;
   for (std::vector<std::byte>* const bytes : {&memory.predicted, &memory.packed})
     if (bytes->size() < lines.size() + kReadBeyond) bytes->resize(lines.size() + kReadBeyond);
   predict(lines, memory.predicted.data());
   const std::span from(memory.predicted.data(), lines.size()), to(memory.packed.data(), lines.size());
-  const std::size_t size = reproducible ? pack_by<Reproducible>(from, to) : pack_by<Fast>(from, to);
+  const std::size_t size =
+      reproducible ? pack_by<ReproduciblePacker>(from, to) : pack_by<FastPacker>(from, to);
   if (size == 0 || size >= lines.size()) return {lines.begin(), lines.end()};
   return {to.begin(), to.begin() + static_cast<std::ptrdiff_t>(size)};
 }

@@ -1,6 +1,7 @@
 // Several Engines with OpenGL in one process, beside a caller that has OpenGL of its own.
 #include <cstdlib>
 #include <deque>
+#include <memory>
 #include <thread>
 
 #include "gl/context/current.h"
@@ -148,6 +149,20 @@ TEST(Engines, AreUsedByThreadsInTurns) {
       EXPECT_TRUE(same_pixels(engine.render(cornell(), view(), settings_of("1")).value(), wanted));
     }).join();
   engine.throw_gl_complaints();
+}
+
+// OSMesa crashed in destructors that run after its own.
+TEST(Engines, MayLiveUntilTheProcessEnds) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  for (const char* backend : {"egl", "osmesa"}) {
+    const auto draw_and_exit = [&] {
+      static std::unique_ptr<Engine> engine;  // destroyed last
+      engine = std::make_unique<Engine>(EngineOptions{.backend = backend});
+      const bool drawn = engine->render(cornell(), view(), settings_of("1")).has_value();
+      std::exit(drawn ? 0 : 1);
+    };
+    EXPECT_EXIT(draw_and_exit(), testing::ExitedWithCode(0), "") << backend;
+  }
 }
 
 }  // namespace
