@@ -26,7 +26,7 @@ float distance_apart(const BspTree& tree, Isa isa) {
   const float triangles = as_float(tree.triangles.size());
   const float triangle_size =
       std::sqrt(2.0f * tree.exact_bounds.half_area() / triangles);  // of the box's sides
-  const float at_a_million = isa == Isa::avx512 ? 0.6f : isa == Isa::avx2 ? 0.3f : 1.25f;
+  const float at_a_million = isa == Isa::avx512 ? 0.4f : isa == Isa::avx2 ? 0.3f : 1.25f;
   const float sizes = at_a_million * std::pow(1e6f / triangles, 0.7f);
   return std::min(sizes * triangle_size, 0.2f * tree.exact_bounds.diagonal());
 }
