@@ -50,10 +50,9 @@ const Osmesa& load_osmesa() {
 // later, as by the destructor of a static variable.
 std::atomic<bool> is_gone = false;
 
-// After OSMesa's first context: what is registered last is called first.
+// Called once OSMesa has a context, and so has registered its own function: the last one is called first.
 void expect_end() {
-  static const int registered = std::atexit([] { is_gone = true; });
-  (void)registered;
+  [[maybe_unused]] static const int registered = std::atexit([] { is_gone = true; });
 }
 
 // OSMesa crashes when it is told to draw with Vulkan.

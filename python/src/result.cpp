@@ -209,7 +209,7 @@ void bind_result(nb::module_& module) {
           "aov: 'all', 'none' or some of the program's --aov, separated by commas.\n"
           "deterministic: without the render time, so that the same picture has the same bytes on every "
           "machine; "
-          "packing then takes three times as long.\n"
+          "packing then takes longer.\n"
           "motion_scene, motion_camera: of the layer motion, as for Result.motion.\n"
           "Raises Error if the file cannot be written, if its name does not end in .exr or if there is no "
           "such "

@@ -178,7 +178,7 @@ bool Gui::handle(const gl::WindowEvent& event) {
   return false;
 }
 
-// As of the last event: ImGui's WantTextInput says what the frame before it did.
+// ImGui's WantTextInput is a frame behind: a key that follows Return at once would be lost.
 bool Gui::wants_text() const {
   const ImGuiContext& gui = *ImGui::GetCurrentContext();
   return gui.ActiveId != 0 && gui.ActiveId == gui.InputTextState.ID;

@@ -35,7 +35,7 @@ class ClearWays {
   // have answered by_part for the triangle.
   [[nodiscard]] bool is_part_clear(std::uint32_t triangle, std::uint32_t part, unsigned rays);
 
-  // The same two answers, but no ray is counted and nothing is searched.
+  // What way_of() and is_part_clear() would answer without a search. No rays are counted.
   [[nodiscard]] Way known_way(std::uint32_t triangle) const;
   [[nodiscard]] bool is_part_known_clear(std::uint32_t triangle, std::uint32_t part) const;
 

@@ -44,8 +44,8 @@ void predict(std::span<const std::byte> lines, std::byte* to) {
   for (; i < n; ++i) (i % 2 == 0 ? even : odd)[i / 2] = static_cast<unsigned char>(in[i] - in[i - 2] + 128);
 }
 
-// libdeflate: its bytes depend on nothing but its version. Higher levels make files 1 to 3 % smaller and take
-// up to twice the time (docs/measurements.md).
+// libdeflate: its bytes depend on nothing but its version. The level is chosen by
+// docs/measurements/packers.csv.
 class ReproduciblePacker {
  public:
   // The size, or 0 if `to` is too small.
@@ -59,7 +59,7 @@ class ReproduciblePacker {
       libdeflate_alloc_compressor(1), libdeflate_free_compressor};
 };
 
-// ISA-L. Level 1 makes files 1 % larger and takes 3 % less time, level 3 twice the time.
+// ISA-L. The level is chosen by the same table.
 class FastPacker {
  public:
   std::size_t pack(std::span<const std::byte> from, std::span<std::byte> to) {
@@ -81,7 +81,7 @@ class FastPacker {
   std::vector<std::uint8_t> memory_ = std::vector<std::uint8_t>(ISAL_DEF_LVL2_DEFAULT);
 };
 
-// ISA-L 2.30's checksum reads beyond the last byte on arm64.
+// ISA-L 2.30's checksum reads beyond the last byte on arm64. Bytes.
 constexpr std::size_t kReadBeyond = 64;
 
 // A thread's memory. It is kept from chunk to chunk, since the system clears new memory each time.

@@ -7,8 +7,8 @@
 namespace pinocchio {
 
 // Packs lines of pixels as OpenEXR's ZIP and ZIPS do; the bytes stay as they are if packing does not shorten
-// them. OpenEXR 3.1 uses zlib, libdeflate takes less than half of its time, ISA-L a third of libdeflate's
-// (docs/measurements.md). ISA-L's bytes depend on the processor; if `reproducible`, libdeflate packs.
+// them. ISA-L packs, whose bytes depend on the processor; if `reproducible`, libdeflate, which is slower.
+// Both are faster than the zlib of OpenEXR 3.1 (docs/measurements.md).
 [[nodiscard]] std::vector<std::byte> pack_zip(std::span<const std::byte> lines, bool reproducible);
 
 }  // namespace pinocchio

@@ -54,7 +54,7 @@ struct ExrFile {
   // Matrices are for column vectors, as in GLM. The file holds their transpose, for OpenEXR's row vectors.
   std::map<std::string, ExrAttribute> attributes;
   ExrCompression compression = ExrCompression::zip;
-  bool reproducible = true;  // the same bytes on every machine; else ZIP and ZIPS take a third of the time
+  bool reproducible = true;  // the same bytes on every machine; else ZIP and ZIPS are faster
 
   [[nodiscard]] const ExrChannel* find(const std::string& name) const;
 };

@@ -201,7 +201,7 @@ void TileTracer::find_settled() {
                                                            ids_.data(), mask_.data());
 }
 
-// The same where rays found the ids: drops the rays that meet such points.
+// As find_settled(), but rays have found the ids: drops the rays that meet settled points.
 void TileTracer::drop_settled() {
   if (!plan_->settled || seen_.size == 0) return;
   ids_.fill(kNoTriangle);

@@ -132,8 +132,8 @@ void unpack_mask(const FrameResult& frame, std::uint8_t* to, std::size_t bytes =
 struct ExrOptions {
   std::string layers = "all";  // or "none", or EXR names of kLayers with commas between
   ExrCompression compression = ExrCompression::zip;
-  // The render time, for the header. Without it the same picture has the same bytes on every machine, and
-  // packing takes three times as long.
+  // The render time, for the header. Without it the same picture has the same bytes on every machine
+  // (ExrFile::reproducible).
   std::optional<double> render_s{};
   // For the header: the frame's number in an animation, and the frames per second.
   int frame = 0;

@@ -41,7 +41,7 @@ struct Share {
   }
 };
 
-// Of the triangles that are seen, those that are settled by now, as a whole or in some part.
+// How many of the visible triangles are settled, as a whole or in a part.
 inline Share settled_share(const Tracer& tracer, const SettledTriangles& settled,
                            const Image<std::uint32_t>& seen) {
   Share share;

@@ -14,7 +14,7 @@
 namespace pinocchio {
 namespace {
 
-// The same floor, of many triangles.
+// Replaces the first triangle by many that cover it.
 void cut_into_pieces(Scene& scene, std::uint32_t pieces) {
   MeshEdit mesh(scene);
   const glm::vec3 a = mesh->positions[0], ab = mesh->positions[1] - a, ac = mesh->positions[2] - a;
